@@ -1,0 +1,197 @@
+#include "cache/base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace farcell {
+namespace {
+
+constexpr size_t kWriteBufferBytes = size_t{1} << 20;
+
+tl::unexpected<Error> ioError(const std::string& path, const char* what, int code) {
+  const ErrorKind kind = code == ENOENT ? ErrorKind::notFound : ErrorKind::io;
+  return fail(kind, "{}: {}: {}", path, what, std::strerror(code));
+}
+
+Result<> readAll(int descriptor, const std::string& path, uint64_t offset, std::span<std::byte> out) {
+  size_t done = 0;
+  while (done < out.size()) {
+    const ssize_t got = ::pread(descriptor, out.data() + done, out.size() - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return ioError(path, fmt::format("cannot read at offset {}", offset + done).c_str(), errno);
+    if (got == 0)
+      return corrupt(path, offset + done, fmt::format("{} more bytes", out.size() - done), "end of file");
+    done += static_cast<size_t>(got);
+  }
+  return {};
+}
+
+Result<> writeAll(int descriptor, const std::string& path, uint64_t offset, std::span<const std::byte> bytes) {
+  size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t put =
+        ::pwrite(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return ioError(path, fmt::format("cannot write at offset {}", offset + done).c_str(), errno);
+    done += static_cast<size_t>(put);
+  }
+  return {};
+}
+
+std::filesystem::path directoryOf(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+Result<> syncDirectory(const std::filesystem::path& directory) {
+  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return ioError(directory, "cannot open directory", errno);
+  const int status = ::fsync(descriptor);
+  const int code = errno;
+  ::close(descriptor);
+  if (status != 0) return ioError(directory, "cannot sync directory", code);
+  return {};
+}
+
+}  // namespace
+
+InputFile::InputFile(int descriptor, std::string path, uint64_t sizeBytes)
+    : descriptor_(descriptor), path_(std::move(path)), sizeBytes_(sizeBytes) {}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      path_(std::move(other.path_)),
+      sizeBytes_(other.sizeBytes_) {}
+
+InputFile& InputFile::operator=(InputFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(path_, other.path_);
+  std::swap(sizeBytes_, other.sizeBytes_);
+  return *this;
+}
+
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<InputFile> InputFile::open(const std::filesystem::path& path) {
+  // O_NONBLOCK: opening a FIFO must not wait for a writer; it has no effect on regular files.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return ioError(path, "cannot open", errno);
+  InputFile file(descriptor, path.string(), 0);
+  struct stat info {};
+  if (::fstat(descriptor, &info) != 0) return ioError(path, "cannot stat", errno);
+  if (!S_ISREG(info.st_mode)) return fail(ErrorKind::io, "{}: expected a regular file, found something else", file.path_);
+  file.sizeBytes_ = static_cast<uint64_t>(info.st_size);
+  return file;
+}
+
+Result<> InputFile::readAt(uint64_t offset, std::span<std::byte> out) const {
+  if (offset > sizeBytes_ || out.size() > sizeBytes_ - offset)
+    return corrupt(path_, offset, fmt::format("{} bytes", out.size()),
+                   fmt::format("a file of {} bytes", sizeBytes_));
+  return readAll(descriptor_, path_, offset, out);
+}
+
+OutputFile::OutputFile(int descriptor, std::filesystem::path path, std::filesystem::path temporary)
+    : descriptor_(descriptor), path_(std::move(path)), temporary_(std::move(temporary)) {
+  buffer_.reserve(kWriteBufferBytes);
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      buffer_(std::move(other.buffer_)),
+      sizeBytes_(other.sizeBytes_) {}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
+  std::string name = (directoryOf(path) / (path.filename().string() + ".XXXXXX")).string();
+  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor < 0) return ioError(path, "cannot create", errno);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::fchmod(descriptor, 0666 & ~mask);
+  return OutputFile(descriptor, path, name);
+}
+
+Result<> OutputFile::append(std::span<const std::byte> bytes) {
+  sizeBytes_ += bytes.size();
+  buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  if (buffer_.size() >= kWriteBufferBytes) return flush();
+  return {};
+}
+
+Result<> OutputFile::flush() {
+  FARCELL_TRY(writeAll(descriptor_, path_.string(), sizeBytes_ - buffer_.size(), buffer_));
+  buffer_.clear();
+  return {};
+}
+
+Result<> OutputFile::commit() {
+  FARCELL_TRY(flush());
+  if (::fsync(descriptor_) != 0) return ioError(path_, "cannot sync", errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) return ioError(path_, "cannot close", errno);
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) return ioError(path_, "cannot rename into place", errno);
+  temporary_.clear();
+  return syncDirectory(directoryOf(path_));
+}
+
+ScratchFile::ScratchFile(int descriptor, std::string directory)
+    : descriptor_(descriptor), directory_(std::move(directory)) {}
+
+ScratchFile::ScratchFile(ScratchFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), directory_(std::move(other.directory_)) {}
+
+ScratchFile& ScratchFile::operator=(ScratchFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(directory_, other.directory_);
+  return *this;
+}
+
+ScratchFile::~ScratchFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<ScratchFile> ScratchFile::create(const std::filesystem::path& directory) {
+  std::string name = (directory / "farcell-scratch.XXXXXX").string();
+  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor < 0) return ioError(directory, "cannot create a scratch file in", errno);
+  ::unlink(name.c_str());
+  return ScratchFile(descriptor, directory.string());
+}
+
+Result<> ScratchFile::writeAt(uint64_t offset, std::span<const std::byte> bytes) {
+  return writeAll(descriptor_, directory_, offset, bytes);
+}
+
+Result<> ScratchFile::readAt(uint64_t offset, std::span<std::byte> out) const {
+  return readAll(descriptor_, directory_, offset, out);
+}
+
+Result<std::string> readTextFile(const std::filesystem::path& path, uint64_t maxBytes) {
+  FARCELL_ASSIGN(InputFile file, InputFile::open(path));
+  if (file.sizeBytes() > maxBytes)
+    return fail(ErrorKind::exhausted, "{}: expected at most {} bytes, found {}", file.path(), maxBytes,
+                file.sizeBytes());
+  std::string text(file.sizeBytes(), '\0');
+  FARCELL_TRY(file.readAt(0, std::as_writable_bytes(std::span(text))));
+  return text;
+}
+
+Result<> writeTextFile(const std::filesystem::path& path, const std::string& text) {
+  FARCELL_ASSIGN(OutputFile file, OutputFile::create(path));
+  FARCELL_TRY(file.append(std::as_bytes(std::span(text))));
+  return file.commit();
+}
+
+}  // namespace farcell

@@ -1,0 +1,87 @@
+// The one layer through which every byte of a file goes: bounded positional reads, and files that appear
+// whole or not at all. No memory mapping: a mapped file that shrinks under its reader kills the process.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+// A regular file opened for reading. Move-only; reads may come from several threads at once.
+class InputFile {
+ public:
+  // Refuses directories, FIFOs and devices (they could block for ever or have no size).
+  static Result<InputFile> open(const std::filesystem::path& path);
+  InputFile(InputFile&& other) noexcept;
+  InputFile& operator=(InputFile&& other) noexcept;
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  const std::string& path() const { return path_; }
+  uint64_t sizeBytes() const { return sizeBytes_; }  // as it was when opened
+  // Fills `out` entirely from `offset`, or fails naming path and offset.
+  Result<> readAt(uint64_t offset, std::span<std::byte> out) const;
+
+ private:
+  InputFile(int descriptor, std::string path, uint64_t sizeBytes);
+  int descriptor_ = -1;
+  std::string path_;
+  uint64_t sizeBytes_ = 0;
+};
+
+// A file written from start to end under a temporary name beside its final one. `commit` syncs it, renames
+// it and syncs the directory; without a commit the temporary file is removed and an older file stays whole.
+class OutputFile {
+ public:
+  static Result<OutputFile> create(const std::filesystem::path& path);
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+  OutputFile(const OutputFile&) = delete;
+  ~OutputFile();
+
+  uint64_t sizeBytes() const { return sizeBytes_; }  // appended so far
+  Result<> append(std::span<const std::byte> bytes);
+  Result<> commit();
+
+ private:
+  OutputFile(int descriptor, std::filesystem::path path, std::filesystem::path temporary);
+  Result<> flush();
+  int descriptor_ = -1;
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::vector<std::byte> buffer_;
+  uint64_t sizeBytes_ = 0;
+};
+
+// A temporary file that has no name: written at any offset, read back, gone with its owner or a crash.
+class ScratchFile {
+ public:
+  static Result<ScratchFile> create(const std::filesystem::path& directory);
+  ScratchFile(ScratchFile&& other) noexcept;
+  ScratchFile& operator=(ScratchFile&& other) noexcept;
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile();
+
+  Result<> writeAt(uint64_t offset, std::span<const std::byte> bytes);
+  Result<> readAt(uint64_t offset, std::span<std::byte> out) const;
+
+ private:
+  ScratchFile(int descriptor, std::string directory);
+  int descriptor_ = -1;
+  std::string directory_;
+};
+
+// A whole small text file (JSON and the like); fails with `exhausted` above `maxBytes`.
+Result<std::string> readTextFile(const std::filesystem::path& path, uint64_t maxBytes);
+// Writes through OutputFile.
+Result<> writeTextFile(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace farcell

@@ -1,0 +1,9 @@
+// What the operating system says this process used.
+#pragma once
+
+#include <cstdint>
+
+namespace farcell {
+uint64_t peakRssBytes();
+double processCpuSeconds();  // user + system, all threads
+}  // namespace farcell

@@ -1,0 +1,65 @@
+// A pack file: written in one pass, opened in two reads (footer, directory). See FORMAT.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cache/base/file.h"
+#include "cache/base/result.h"
+#include "cache/pack/directory.h"
+#include "cache/pack/pages.h"
+
+namespace farcell {
+
+inline constexpr uint64_t kPageAlignment = 4096;
+inline constexpr uint32_t kPackVersion = 0;
+
+// Appends pages, then the directory; the file appears under its name at `finish`, whole and synced.
+class PackWriter {
+ public:
+  static Result<PackWriter> create(const std::filesystem::path& path);
+  PackWriter(PackWriter&&) noexcept = default;
+
+  // Returns the new page's index. Pages of a cell's views must be added one after the other, by rising group.
+  Result<uint32_t> add(PageKind kind, uint32_t cell, uint32_t group, uint32_t decodedBytes,
+                       std::span<const std::byte> stored);
+  // `directory.pages` is ignored and filled from what was added. Returns the size of the file.
+  Result<uint64_t> finish(Directory directory);
+
+ private:
+  explicit PackWriter(OutputFile file) : file_(std::move(file)) {}
+  OutputFile file_;
+  std::vector<PageRecord> pages_;
+};
+
+// An opened pack. Thread-safe: reads are positional and the directory never changes.
+class PackFile {
+ public:
+  // Checks magic, version, every offset, size, index and checksum of footer and directory; the tree is a tree,
+  // children lie inside parents, pages do not overlap and fill the file.
+  static Result<PackFile> open(const std::filesystem::path& path);
+
+  const std::string& path() const { return file_.path(); }
+  uint64_t sizeBytes() const { return file_.sizeBytes(); }
+  const Directory& directory() const { return directory_; }
+
+  // Reads, checks and decodes. REQUIRES: the page is of that kind.
+  Result<GeometryPage> readGeometry(uint32_t page) const;
+  Result<ViewPage> readViews(uint32_t page) const;
+
+  // Every byte of the file: all checksums, all pages decoded, padding zero, cells and pages consistent with content.
+  // Returns one Error per finding, at most maxFindings.
+  std::vector<Error> verify(size_t maxFindings, const std::function<void(uint64_t pagesDone)>& progress) const;
+
+ private:
+  PackFile(InputFile file, Directory directory) : file_(std::move(file)), directory_(std::move(directory)) {}
+  Result<std::vector<std::byte>> readPage(uint32_t page) const;
+  InputFile file_;
+  Directory directory_;
+};
+
+}  // namespace farcell

@@ -1,0 +1,65 @@
+// Pages in memory, and their coding. A page is the unit that is read, checked, cached and evicted.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+// The full triangles of a leaf, clipped to its cube. Positions are grid steps from the cube's lowest corner,
+// each in [0, 2^(bits-level)]; vertices are shared wherever position, colour and normal agree.
+struct GeometryPage {
+  std::vector<glm::uvec3> positions;
+  std::vector<uint32_t> colours;   // 0x00BBGGRR per vertex; empty: the model has none
+  std::vector<uint32_t> normals;   // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
+  std::vector<uint32_t> indices;   // three a triangle
+  bool operator==(const GeometryPage&) const = default;
+};
+
+// One baked view, cropped to the rectangle of texels that hold anything (after depth was dilated).
+struct ViewImage {
+  uint32_t view = 0;               // index into the viewpoint set
+  uint32_t x0 = 0, y0 = 0;         // lowest texel of the rectangle
+  uint32_t width = 0, height = 0;  // texels; 0 x 0: nothing is seen from here
+  float depthMin = 0;              // w of depth value 1, in half sides of the cell (view_frame.h)
+  float depthMax = 0;              // w of depth value 255
+  std::vector<uint8_t> rgba;       // 4 * width * height, premultiplied by coverage; alpha is coverage
+  std::vector<uint8_t> depth;      // width * height; 0: unknown; else depthMin + (d - 1) / 254 * (depthMax - depthMin)
+  std::vector<uint8_t> normal;     // 2 * width * height, octahedral unorm8 pairs; empty when not baked
+  bool operator==(const ViewImage&) const = default;
+};
+
+// Views of one cell that lie near each other on the sphere, by rising view index.
+struct ViewPage {
+  std::vector<ViewImage> views;
+  bool operator==(const ViewPage&) const = default;
+};
+
+// Coding is deterministic. Encoders expect valid input (CHECK).
+std::vector<std::byte> encodeGeometryPage(const GeometryPage& page);
+std::vector<std::byte> encodeViewPage(const ViewPage& page);
+// What the decoded page occupies in memory: PageRecord::decodedBytes.
+uint32_t decodedSizeBytes(const GeometryPage& page);
+uint32_t decodedSizeBytes(const ViewPage& page);
+
+// What a decoder may believe: nothing larger is allocated, whatever the bytes claim.
+struct GeometryLimits {
+  uint32_t maxCoordinate;   // 2^(bits-level)
+  uint64_t maxDecodedBytes;
+};
+struct ViewLimits {
+  uint32_t viewCount;       // size of the viewpoint set
+  uint32_t imageSize;
+  uint64_t maxDecodedBytes;
+};
+// Decoders trust nothing: a wrong byte is an error of kind corrupt (without a path: the caller adds it).
+Result<GeometryPage> decodeGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits);
+Result<ViewPage> decodeViewPage(std::span<const std::byte> bytes, const ViewLimits& limits);
+
+}  // namespace farcell

@@ -1,0 +1,45 @@
+// What a pack says about the model and the settings it was built with: the facts baker and runtime must agree on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "cache/schema/grid.h"
+
+namespace farcell {
+
+enum class UpAxis : uint32_t { x = 0, y = 1, z = 2 };
+
+// Everything that decides a pack's content, besides the input itself.
+struct BuildSettings {
+  int views = 42;              // size of the viewpoint set, see viewpoints.h
+  int imageSize = 128;         // texels along a view's edge: a power of two, 16..1024
+  int samples = 16;            // per texel: 1, 4, 16 or 64
+  int leafTriangles = 8192;    // a cell of more is split, within maxLevel
+  int maxLevel = 12;           // octree depth limit
+  int fixedLevel = -1;         // >= 0: all leaves at this depth, as in the 2010 paper
+  UpAxis up = UpAxis::z;
+  double metresPerUnit = 1;
+  bool bakeNormals = false;    // views keep a prefiltered normal beside the lit colour
+  bool operator==(const BuildSettings&) const = default;
+};
+
+struct Model {
+  Grid grid;
+  GridBox bounds;              // of all accepted triangles
+  BuildSettings settings;
+  bool hasNormals = false;     // the file gave vertex normals: smooth shading; else faces are flat
+  bool hasColours = false;     // the file gave colours; else kDefaultAlbedo
+  bool operator==(const Model&) const = default;
+};
+
+// Colour of a model that brings none.
+inline constexpr std::array<uint8_t, 3> kDefaultAlbedo = {204, 200, 192};
+
+// Direction to the sun, unit, world axes: high, from the side, the same for every picture and bake of a model.
+glm::vec3 sunDirection(UpAxis up);
+// Unit vector of the up axis, and of the two others in right-handed order after it.
+glm::dvec3 upVector(UpAxis up);
+
+}  // namespace farcell

@@ -1,0 +1,44 @@
+# How every target of farcell is made. A directory is a target: farcell_library(cache/base) makes
+# farcell_cache_base from all .cpp files of cache/base. Includes are written from the repository root.
+
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+
+add_library(farcell_settings INTERFACE)
+target_include_directories(farcell_settings INTERFACE ${CMAKE_SOURCE_DIR})
+# -ffp-contract=off: the same source gives the same bits on every machine; where a fused multiply-add
+# is wanted it is written out (hwy::MulAdd, std::fma).
+target_compile_options(farcell_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                                  -Wno-sign-conversion -ffp-contract=off)
+target_compile_definitions(farcell_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_XYZW_ONLY
+                                                      FARCELL_VERSION="${PROJECT_VERSION}")
+target_link_libraries(farcell_settings INTERFACE Threads::Threads)
+if(FARCELL_WERROR)
+  target_compile_options(farcell_settings INTERFACE -Werror)
+endif()
+if(FARCELL_SANITIZE)
+  add_compile_options(-fsanitize=${FARCELL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${FARCELL_SANITIZE})
+endif()
+
+# farcell_library(<directory> [DEPS <public libraries>...] [PRIVATE <private libraries>...])
+function(farcell_library directory)
+  cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE" ${ARGN})
+  string(REPLACE "/" "_" name "farcell_${directory}")
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${directory}/*.cpp)
+  if(sources)
+    add_library(${name} STATIC ${sources})
+    target_link_libraries(${name} PUBLIC farcell_settings ${ARG_DEPS} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE farcell_settings ${ARG_DEPS})
+  endif()
+endfunction()
+
+# farcell_program(<directory> <name> [DEPS <libraries>...])
+function(farcell_program directory name)
+  cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${directory}/*.cpp)
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE farcell_settings ${ARG_DEPS})
+endfunction()

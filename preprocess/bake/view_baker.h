@@ -1,0 +1,66 @@
+// Bakes orthographic views of a cell: the prefiltered appearance from a direction and from its antipode at once.
+//
+// The life of a view: begin -> add (any number of chunks of triangles; a z-buffer does not care about order) ->
+// finish. Each texel is the mean of samples on a regular sub-grid; triangles are rasterised by SIMD code chosen at run
+// time (Highway), which gives the same bits on every instruction set.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "cache/schema/view_frame.h"
+
+namespace farcell {
+
+// Triangles of one grown cell in cell-local coordinates (view_frame.h), clipped to [-kCellGrowth, kCellGrowth]^3.
+// Structure of arrays, so that one SIMD lane is one triangle.
+struct CellSoup {
+  // corner k of triangle t is at (x[k][t], y[k][t], z[k][t])
+  std::array<std::vector<float>, 3> x, y, z;
+  std::array<std::vector<uint32_t>, 3> colours;  // albedo, 0x00BBGGRR
+  // Unit normals, octahedral as in GeometryPage; empty: flat, the face's own normal.
+  std::array<std::vector<uint32_t>, 3> normals;
+
+  size_t size() const { return x[0].size(); }
+  void clear();
+};
+
+struct BakeSettings {
+  int imageSize = 128;      // texels along an edge
+  int samples = 16;         // per texel: 1, 4, 16, 64 (a square number: 1x1, 2x2, 4x4, 8x8)
+  glm::vec3 sun{0, 0, 1};   // unit, world axes (shading.h)
+  bool normals = false;     // also bake the mean normal
+};
+
+// A finished view, cropped to its covered texels, before quantisation.
+struct BakedView {
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // texels; width == 0: nothing was hit
+  std::vector<float> rgba;     // 4 per texel, [0, 1], premultiplied: mean over all samples; alpha is coverage
+  std::vector<float> depth;    // 1 per texel: mean w of the covered samples within kDepthAverageTexels of the nearest
+                               // one; -infinity where nothing was hit
+  std::vector<float> normal;   // 3 per texel, unit (mean of the same samples, renormalised); empty unless asked for
+};
+// Averaging depth across a silhouette would put the surface in mid-air.
+inline constexpr float kDepthAverageTexels = 3;
+
+// Scratch for one pair of views; reused from pair to pair. Not thread-safe: one per thread.
+class ViewBaker {
+ public:
+  explicit ViewBaker(const BakeSettings& settings);
+  ~ViewBaker();
+  ViewBaker(ViewBaker&&) noexcept;
+
+  void begin(const ViewFrame& frame);
+  void add(const CellSoup& chunk);
+  // The view from frame.toward, and the one from -frame.toward in viewFrame(-frame.toward)'s image coordinates.
+  void finish(BakedView& view, BakedView& antipode);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farcell

@@ -1,0 +1,55 @@
+// Mesh files as streams of triangles. Positions are double until the pipeline makes them cell-local.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+struct InputTriangle {
+  std::array<glm::dvec3, 3> positions;  // as in the file, model units
+  std::array<uint32_t, 3> colours;      // 0x00BBGGRR; meaningful when MeshInfo::hasColours
+  std::array<glm::vec3, 3> normals;     // as in the file, any length; meaningful when MeshInfo::hasNormals
+};
+
+// What the file's header or first pass tells.
+struct MeshInfo {
+  bool hasColours = false;
+  bool hasNormals = false;
+  uint64_t declaredTriangles = 0;  // after triangulation, where the format declares it or a first pass counted it
+  uint64_t vertices = 0;
+};
+
+// What a pass over the triangles found: accepted + sum of skipped == every triangle the file holds.
+struct MeshCounts {
+  uint64_t accepted = 0;
+  std::map<std::string, uint64_t> skipped;  // triangles, by reason (names below)
+};
+// Reasons, shared by all formats.
+inline constexpr const char* kSkippedNonFinite = "nonFinitePosition";   // NaN or infinity
+inline constexpr const char* kSkippedZeroArea = "zeroArea";             // two equal corners, or exactly no area in double
+inline constexpr const char* kSkippedBadIndex = "indexOutOfRange";
+
+// An opened mesh. `forEachTriangle` may be called any number of times and gives the same triangles in the same order.
+class MeshReader {
+ public:
+  virtual ~MeshReader() = default;
+  virtual const MeshInfo& info() const = 0;
+  // Batches of at most 64 Ki accepted triangles, valid during the call. The sink's error ends the pass and is returned.
+  using Sink = std::function<Result<>(std::span<const InputTriangle>)>;
+  virtual Result<MeshCounts> forEachTriangle(const Sink& sink) = 0;
+};
+
+// Chosen by content (PLY magic) and name (.ply, .obj). unsupported for other formats, named in the message.
+Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path);
+
+}  // namespace farcell

@@ -1,0 +1,1 @@
+farcell_tests(cache/base DEPS farcell_cache_base)

@@ -1,0 +1,1 @@
+farcell_tests(cache/schema DEPS farcell_cache_schema)

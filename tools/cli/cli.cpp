@@ -1,0 +1,70 @@
+#include "tools/cli/cli.h"
+
+#include <charconv>
+#include <cstdio>
+#include <exception>
+
+#include "cache/base/interrupt.h"
+
+namespace farcell {
+namespace {
+constexpr int kExitFailed = 1;
+constexpr int kExitMisused = 2;
+
+int report(const CLI::App& app, const Error& error) {
+  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.message.c_str());
+  return error.kind == ErrorKind::invalidArgument ? kExitMisused : kExitFailed;
+}
+
+uint64_t countFactor(std::string_view suffix) {
+  if (suffix.empty()) return 1;
+  if (suffix == "k" || suffix == "K") return 1'000;
+  if (suffix == "M") return 1'000'000;
+  if (suffix == "G") return 1'000'000'000;
+  return 0;
+}
+}  // namespace
+
+int runProgram(CLI::App& app, int argc, char** argv, const std::function<Result<>()>& work) {
+  app.set_version_flag("--version", FARCELL_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitMisused;
+  }
+  installInterruptHandler();
+  try {
+    const Result<> result = work();
+    return result ? 0 : report(app, result.error());
+  } catch (const std::bad_alloc&) {
+    return report(app, {ErrorKind::exhausted, "out of memory"});
+  } catch (const std::exception& error) {
+    return report(app, {ErrorKind::io, error.what()});
+  }
+}
+
+Result<uint64_t> parseCount(const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const uint64_t factor = countFactor(std::string_view(end, text.data() + text.size()));
+  const double count = value * static_cast<double>(factor);
+  if (code != std::errc{} || factor == 0 || !(count >= 0 && count <= 1e18))
+    return fail(ErrorKind::invalidArgument, "expected a count such as 1234, 500k or 5M, found '{}'", text);
+  return static_cast<uint64_t>(count + 0.5);
+}
+
+Result<ImageSize> parseImageSize(const std::string& text) {
+  ImageSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  bool valid = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+  if (valid) {
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    valid = height.ec == std::errc{} && height.ptr == end && std::min(size.width, size.height) >= 1 &&
+            std::max(size.width, size.height) <= 16384;
+  }
+  if (!valid) return fail(ErrorKind::invalidArgument, "expected a size such as 1280x720 (1 to 16384), found '{}'", text);
+  return size;
+}
+
+}  // namespace farcell

@@ -1,0 +1,26 @@
+// What every farcell-<verb> program shares: exit codes, messages, interrupts.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+// Parses the command line into `app` (already holding its options) and runs `work`.
+// Exit codes: 0 success, 1 failed, 2 misused (also ErrorKind::invalidArgument). Errors go to stderr as "verb: message".
+int runProgram(CLI::App& app, int argc, char** argv, const std::function<Result<>()>& work);
+
+// "5M", "500k", "2G", "1234" -> a count (decimal factors). invalidArgument otherwise.
+Result<uint64_t> parseCount(const std::string& text);
+// "1280x720"; both in [1, 16384].
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+Result<ImageSize> parseImageSize(const std::string& text);
+
+}  // namespace farcell

@@ -1,0 +1,25 @@
+// Pictures on disk. The one place of the tools that knows OpenImageIO.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+// 8 bits a channel, interleaved, row 0 at the top. channels: 1 grey, 3 RGB, 4 RGBA (not premultiplied in the file).
+struct Picture {
+  int width = 0;
+  int height = 0;
+  int channels = 3;
+  std::vector<uint8_t> pixels;
+};
+
+Result<> writePng(const std::filesystem::path& path, const Picture& picture);
+// PNG only; refuses pictures larger than maxPixels by their header.
+Result<Picture> readPng(const std::filesystem::path& path, uint64_t maxPixels);
+
+}  // namespace farcell
