@@ -115,6 +115,10 @@ OutputFile::~OutputFile() {
 }
 
 Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
+  // A rename would put a plain file in the place of a device such as /dev/null.
+  struct stat info {};
+  if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
+    return fail(ErrorKind::io, "{}: expected a regular file or nothing there, found something else", path.string());
   std::string name = (directoryOf(path) / (path.filename().string() + ".XXXXXX")).string();
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor < 0) return ioError(path, "cannot create", errno);

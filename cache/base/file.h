@@ -40,6 +40,7 @@ class InputFile {
 // it and syncs the directory; without a commit the temporary file is removed and an older file stays whole.
 class OutputFile {
  public:
+  // Refuses a path where a directory, FIFO or device stands.
   static Result<OutputFile> create(const std::filesystem::path& path);
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;

@@ -1,14 +1,18 @@
 #include "cache/base/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace farcell {
 namespace {
-volatile std::sig_atomic_t gInterrupted = 0;
+// Any thread asks; a signal handler may store to it because it is lock-free.
+std::atomic<bool> gInterrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-void onSignal(int signal) {
-  gInterrupted = 1;
-  std::signal(signal, SIG_DFL);
+void onSignal(int) {
+  gInterrupted = true;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 }  // namespace
 
@@ -17,7 +21,7 @@ void installInterruptHandler() {
   std::signal(SIGTERM, onSignal);
 }
 
-bool interrupted() { return gInterrupted != 0; }
+bool interrupted() { return gInterrupted; }
 
 Result<> checkInterrupt() {
   if (interrupted()) return fail(ErrorKind::cancelled, "interrupted");

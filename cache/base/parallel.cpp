@@ -8,8 +8,8 @@
 namespace farcell {
 
 int threadCount(int requested) {
-  if (requested > 0) return requested;
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (requested > 0) return std::min(requested, kMaxThreads);
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
 }
 
 void parallelFor(size_t count, int threads, const std::function<void(size_t, int)>& work) {

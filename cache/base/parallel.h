@@ -7,7 +7,9 @@
 
 namespace farcell {
 
-// Number of threads for `requested` (0: all the machine offers).
+inline constexpr int kMaxThreads = 1024;
+
+// Number of threads for `requested` (0: all the machine offers), at most kMaxThreads.
 int threadCount(int requested);
 
 // Calls work(index, worker) once for every index in [0, count), from `threads` threads (worker in [0, threads)),

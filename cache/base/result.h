@@ -42,19 +42,21 @@ template <class... Args>
 
 }  // namespace farcell
 
+#define FARCELL_CONCAT_(a, b) a##b
+#define FARCELL_CONCAT(a, b) FARCELL_CONCAT_(a, b)
+
 // FARCELL_TRY(expression): returns the error of a Result<...> from the enclosing function.
-#define FARCELL_TRY(expression)                                                         \
-  do {                                                                                  \
-    if (auto farcellTried = (expression); !farcellTried)                                \
-      return tl::unexpected<::farcell::Error>(std::move(farcellTried).error());         \
+#define FARCELL_TRY(...) FARCELL_TRY_(FARCELL_CONCAT(farcellTried, __COUNTER__), __VA_ARGS__)
+#define FARCELL_TRY_(tried, ...)                                                                   \
+  do {                                                                                             \
+    if (auto tried = (__VA_ARGS__); !tried)                                                        \
+      return tl::unexpected<::farcell::Error>(std::move(tried).error());                           \
   } while (false)
 
 // FARCELL_ASSIGN(auto x, expression): the same, and names the value.
-#define FARCELL_CONCAT_(a, b) a##b
-#define FARCELL_CONCAT(a, b) FARCELL_CONCAT_(a, b)
-#define FARCELL_ASSIGN(declaration, expression) \
-  FARCELL_ASSIGN_(declaration, expression, FARCELL_CONCAT(farcellResult, __LINE__))
-#define FARCELL_ASSIGN_(declaration, expression, result)                                           \
-  auto result = (expression);                                                                      \
-  if (!result) return tl::unexpected<::farcell::Error>(std::move(result).error());                 \
-  declaration = std::move(*result)
+#define FARCELL_ASSIGN(declaration, ...) \
+  FARCELL_ASSIGN_(FARCELL_CONCAT(farcellAssigned, __COUNTER__), declaration, __VA_ARGS__)
+#define FARCELL_ASSIGN_(assigned, declaration, ...)                                                \
+  auto assigned = (__VA_ARGS__);                                                                   \
+  if (!assigned) return tl::unexpected<::farcell::Error>(std::move(assigned).error());             \
+  declaration = std::move(*assigned)

@@ -1,17 +1,18 @@
-// A pack file: written in one pass, opened in two reads (footer, directory). See FORMAT.md.
+// A pack file: written in one pass, opened by three reads (header, footer, directory). See FORMAT.md.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cache/base/file.h"
 #include "cache/base/result.h"
 #include "cache/pack/directory.h"
 #include "cache/pack/pages.h"
+#include "cache/schema/viewpoints.h"
 
 namespace farcell {
 
@@ -25,14 +26,19 @@ class PackWriter {
   PackWriter(PackWriter&&) noexcept = default;
 
   // Returns the new page's index. Pages of a cell's views must be added one after the other, by rising group.
+  // REQUIRES: `stored` is what the encoder of that kind returned, `decodedBytes` the page's decodedSizeBytes.
   Result<uint32_t> add(PageKind kind, uint32_t cell, uint32_t group, uint32_t decodedBytes,
                        std::span<const std::byte> stored);
-  // `directory.pages` is ignored and filled from what was added. Returns the size of the file.
+  // `directory.pages`, report.impostorBytes and report.geometryBytes are ignored and filled from what was added.
+  // Returns the size of the file.
+  // REQUIRES: a directory that PackFile::open would accept (CHECK): cells by level and Morton code, children's content
+  // inside their parent's, each page named by its cell.
   Result<uint64_t> finish(Directory directory);
 
  private:
-  explicit PackWriter(OutputFile file) : file_(std::move(file)) {}
+  PackWriter(OutputFile file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
   OutputFile file_;
+  std::string path_;
   std::vector<PageRecord> pages_;
 };
 
@@ -47,19 +53,23 @@ class PackFile {
   uint64_t sizeBytes() const { return file_.sizeBytes(); }
   const Directory& directory() const { return directory_; }
 
-  // Reads, checks and decodes. REQUIRES: the page is of that kind.
+  // Reads, checks and decodes. REQUIRES: the page is of that kind. The page agrees with its record, its cell (number of
+  // triangles, positions inside the content, group of the views) and the model (colours, normals), or the result is
+  // corrupt.
   Result<GeometryPage> readGeometry(uint32_t page) const;
   Result<ViewPage> readViews(uint32_t page) const;
 
-  // Every byte of the file: all checksums, all pages decoded, padding zero, cells and pages consistent with content.
-  // Returns one Error per finding, at most maxFindings.
+  // Every byte of the file: header, footer and directory once more, all checksums, all pages decoded, padding zero,
+  // cells and pages consistent with content. Returns one Error per finding, at most maxFindings. `progress` may be empty.
   std::vector<Error> verify(size_t maxFindings, const std::function<void(uint64_t pagesDone)>& progress) const;
 
  private:
-  PackFile(InputFile file, Directory directory) : file_(std::move(file)), directory_(std::move(directory)) {}
-  Result<std::vector<std::byte>> readPage(uint32_t page) const;
+  PackFile(InputFile file, Directory directory, Viewpoints viewpoints)
+      : file_(std::move(file)), directory_(std::move(directory)), viewpoints_(std::move(viewpoints)) {}
+  Result<std::vector<std::byte>> readPage(uint32_t page, PageKind kind) const;
   InputFile file_;
   Directory directory_;
+  Viewpoints viewpoints_;
 };
 
 }  // namespace farcell

@@ -16,7 +16,7 @@ struct BuildSettings {
   int views = 42;              // size of the viewpoint set, see viewpoints.h
   int imageSize = 128;         // texels along a view's edge: a power of two, 16..1024
   int samples = 16;            // per texel: 1, 4, 16 or 64
-  int leafTriangles = 8192;    // a cell of more is split, within maxLevel
+  int leafTriangles = 16384;   // a cell of more is split, within maxLevel
   int maxLevel = 12;           // octree depth limit
   int fixedLevel = -1;         // >= 0: all leaves at this depth, as in the 2010 paper
   UpAxis up = UpAxis::z;

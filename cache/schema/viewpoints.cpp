@@ -30,7 +30,8 @@ Icosphere icosahedron() {
            {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 }
 
-// Sums and norms that do not depend on the order of the corners, so that mirrored faces give mirrored points.
+// Sums and norms that do not depend on the order of the corners or of the axes, so that mirrored and turned faces give
+// mirrored and turned points, bit for bit.
 glm::dvec3 normalisedSum(std::array<glm::dvec3, 3> corners, int count) {
   glm::dvec3 sum(0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -40,7 +41,9 @@ glm::dvec3 normalisedSum(std::array<glm::dvec3, 3> corners, int count) {
               [](double l, double r) { return std::abs(l) != std::abs(r) ? std::abs(l) < std::abs(r) : l < r; });
     for (int i = 0; i < count; ++i) sum[axis] += values[i];
   }
-  return sum / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+  std::array<double, 3> squares = {sum.x * sum.x, sum.y * sum.y, sum.z * sum.z};
+  std::sort(squares.begin(), squares.end());
+  return sum / std::sqrt(squares[0] + squares[1] + squares[2]);
 }
 
 Icosphere subdivided(const Icosphere& sphere) {
@@ -68,17 +71,22 @@ std::vector<glm::dvec3> faceCentres(const Icosphere& sphere) {
   return centres;
 }
 
+// `direction` times a power of two, hence exact, its largest component in [0.5, 1): no product over- or underflows.
+glm::dvec3 nearUnitLength(glm::dvec3 direction) {
+  int exponent = 0;
+  std::frexp(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}), &exponent);
+  return {std::ldexp(direction.x, -exponent), std::ldexp(direction.y, -exponent), std::ldexp(direction.z, -exponent)};
+}
+
+// Lowest index whose dot product with `direction` (near unit length) is the largest. What lies within the rounding of
+// a dot product is a tie: on the set's many symmetry planes the answer must not depend on the order of additions.
 int largestDot(std::span<const glm::dvec3> directions, glm::dvec3 direction) {
-  int best = 0;
-  double bestDot = -INFINITY;
-  for (size_t i = 0; i < directions.size(); ++i) {
-    const double value = glm::dot(directions[i], direction);
-    if (value > bestDot) {
-      bestDot = value;
-      best = static_cast<int>(i);
-    }
-  }
-  return best;
+  constexpr double kTie = 2e-15;
+  double largest = -INFINITY;
+  for (const glm::dvec3& candidate : directions) largest = std::max(largest, glm::dot(candidate, direction));
+  size_t best = 0;
+  while (best + 1 < directions.size() && glm::dot(directions[best], direction) < largest - kTie) ++best;
+  return static_cast<int>(best);
 }
 
 }  // namespace
@@ -113,18 +121,27 @@ void Viewpoints::pairAntipodes() {
   }
 }
 
-// A group is what lies nearest to one vertex of the icosahedron.
+// A group is what lies nearest to one vertex of the icosahedron; a vertex to which nothing is nearest (of 20 face
+// centres, each as near to three) makes none.
 void Viewpoints::groupViews() {
   const Icosphere base = icosahedron();
-  groupCount_ = static_cast<int>(base.vertices.size());
-  for (const glm::dvec3& direction : directions_) groups_.push_back(largestDot(base.vertices, direction));
+  std::vector<int> nearestVertex;
+  std::vector<int> groupOfVertex(base.vertices.size(), -1);
+  for (const glm::dvec3& direction : directions_) {
+    nearestVertex.push_back(largestDot(base.vertices, direction));
+    groupOfVertex[nearestVertex.back()] = 0;
+  }
+  groupCount_ = 0;
+  for (int& group : groupOfVertex)
+    if (group == 0) group = groupCount_++;
+  for (const int vertex : nearestVertex) groups_.push_back(groupOfVertex[vertex]);
 }
 
-int Viewpoints::nearest(glm::dvec3 direction) const { return largestDot(directions_, direction); }
+int Viewpoints::nearest(glm::dvec3 direction) const { return largestDot(directions_, nearUnitLength(direction)); }
 
 Viewpoints::Triple Viewpoints::nearestThree(glm::dvec3 direction) const {
   FARCELL_CHECK(hasTriangles());
-  const glm::dvec3 unit = glm::normalize(direction);
+  const glm::dvec3 unit = glm::normalize(nearUnitLength(direction));
   double bestInside = -INFINITY;
   Triple best{};
   for (const auto& face : triangles_) {

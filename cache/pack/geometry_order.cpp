@@ -1,0 +1,40 @@
+// The order in which a page's triangles and vertices deflate and draw best.
+#include <meshoptimizer.h>
+
+#include "cache/base/check.h"
+#include "cache/pack/pages.h"
+
+namespace farcell {
+namespace {
+
+constexpr uint32_t kUnusedVertex = ~0u;  // what meshoptimizer's remap says of a vertex no triangle names
+
+template <class T>
+std::vector<T> remapped(const std::vector<T>& values, std::span<const uint32_t> remap, size_t count) {
+  std::vector<T> result(values.empty() ? 0 : count);
+  for (size_t i = 0; i < values.size(); ++i)
+    if (remap[i] != kUnusedVertex) result[remap[i]] = values[i];
+  return result;
+}
+
+}  // namespace
+
+GeometryPage optimisedOrder(const GeometryPage& page) {
+  // meshoptimizer aborts on indices out of range.
+  for (const uint32_t index : page.indices) FARCELL_CHECK(index < page.positions.size());
+  FARCELL_CHECK(page.indices.size() % 3 == 0);
+  if (page.indices.empty()) return {};
+  GeometryPage result;
+  result.indices.resize(page.indices.size());
+  meshopt_optimizeVertexCache(result.indices.data(), page.indices.data(), page.indices.size(), page.positions.size());
+  std::vector<uint32_t> remap(page.positions.size());
+  const size_t used = meshopt_optimizeVertexFetchRemap(remap.data(), result.indices.data(), result.indices.size(),
+                                                       page.positions.size());
+  for (uint32_t& index : result.indices) index = remap[index];
+  result.positions = remapped(page.positions, remap, used);
+  result.colours = remapped(page.colours, remap, used);
+  result.normals = remapped(page.normals, remap, used);
+  return result;
+}
+
+}  // namespace farcell

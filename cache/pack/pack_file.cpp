@@ -1,0 +1,153 @@
+#include "cache/pack/pack_file.h"
+
+#include <algorithm>
+
+#include "cache/base/check.h"
+#include "cache/base/hash.h"
+#include "cache/pack/directory_check.h"
+#include "cache/pack/directory_codec.h"
+#include "cache/pack/layout.h"
+
+namespace farcell {
+namespace {
+
+Result<std::vector<std::byte>> readBytes(const InputFile& file, uint64_t offset, uint64_t size) {
+  std::vector<std::byte> bytes(size);
+  FARCELL_TRY(file.readAt(offset, bytes));
+  return bytes;
+}
+
+// Header, footer and directory, each checked before the next is looked for.
+Result<Directory> readDirectory(const InputFile& file) {
+  if (file.sizeBytes() < kHeaderBytes + kFooterBytes)
+    return corrupt(file.path(), 0, fmt::format("a pack of at least {} bytes", kHeaderBytes + kFooterBytes),
+                   fmt::format("{}", file.sizeBytes()));
+  FARCELL_ASSIGN(const auto header, readBytes(file, 0, kHeaderBytes));
+  FARCELL_TRY(checkHeader(header, file.path()));
+  FARCELL_ASSIGN(const auto end, readBytes(file, file.sizeBytes() - kFooterBytes, kFooterBytes));
+  FARCELL_ASSIGN(const Footer footer, decodeFooter(end, file.sizeBytes(), file.path()));
+  FARCELL_ASSIGN(const auto bytes, readBytes(file, footer.directoryOffset, footer.directoryBytes));
+  if (hashBytes(bytes) != footer.directoryChecksum)
+    return corrupt(file.path(), footer.directoryOffset,
+                   fmt::format("a directory of checksum {:016x}", footer.directoryChecksum),
+                   fmt::format("{:016x}", hashBytes(bytes)));
+  DirectoryPlaces places;
+  FARCELL_ASSIGN(Directory directory, decodeDirectory(bytes, footer.directoryOffset, file.path(), places));
+  FARCELL_TRY(checkDirectory(directory, places, footer.directoryOffset, file.path()));
+  const uint64_t settingsHash = hashSettings(directory.model.settings);
+  if (settingsHash != footer.settingsHash)
+    return corrupt(file.path(), places.model, fmt::format("settings of hash {:016x}", footer.settingsHash),
+                   fmt::format("{:016x}", settingsHash));
+  directory.sourceHash = footer.sourceHash;
+  return directory;
+}
+
+// A page's own message gets the file and the page in front.
+tl::unexpected<Error> inPage(const PackFile& pack, uint32_t page, const std::string& message) {
+  return fail(ErrorKind::corrupt, "{}: offset {}: page {}: {}", pack.path(),
+              pack.directory().pages[page].offsetBytes, page, message);
+}
+
+Result<> checkGeometry(const GeometryPage& page, const CellRecord& cell, const Model& model) {
+  const auto wrong = [](const std::string& expected, const std::string& found) {
+    return fail(ErrorKind::corrupt, "expected {}, found {}", expected, found);
+  };
+  if (page.indices.size() / 3 != cell.triangles)
+    return wrong(fmt::format("{} triangles", cell.triangles), fmt::format("{}", page.indices.size() / 3));
+  if (!page.positions.empty() && (page.colours.empty() == model.hasColours || page.normals.empty() == model.hasNormals))
+    return wrong(fmt::format("colours: {}, normals: {}", model.hasColours, model.hasNormals),
+                 fmt::format("{}, {}", !page.colours.empty(), !page.normals.empty()));
+  const GridPoint corner = cellBox(model.grid, cell.key).min;
+  GridBox box = cell.content;
+  for (const glm::uvec3& position : page.positions) box.include(corner + GridPoint(position));
+  if (box != cell.content) return wrong("positions inside the cell's content", "others");
+  return {};
+}
+
+Result<> checkViews(const ViewPage& page, const PageRecord& record, const Model& model, const Viewpoints& viewpoints) {
+  for (const ViewImage& view : page.views) {
+    const auto group = static_cast<uint32_t>(viewpoints.group(static_cast<int>(view.view)));
+    if (group != record.group)
+      return fail(ErrorKind::corrupt, "expected views of group {}, found view {} of group {}", record.group, view.view,
+                  group);
+    if (view.width > 0 && view.normal.empty() == model.settings.bakeNormals)
+      return fail(ErrorKind::corrupt, "expected views with normals: {}, found {}", model.settings.bakeNormals,
+                  !view.normal.empty());
+  }
+  return {};
+}
+
+Result<> checkDecodedSize(uint32_t expectedBytes, uint32_t foundBytes) {
+  if (foundBytes == expectedBytes) return {};
+  return fail(ErrorKind::corrupt, "expected {} decoded bytes, found {}", expectedBytes, foundBytes);
+}
+
+}  // namespace
+
+Result<PackFile> PackFile::open(const std::filesystem::path& path) {
+  FARCELL_ASSIGN(InputFile file, InputFile::open(path));
+  FARCELL_ASSIGN(Directory directory, readDirectory(file));
+  FARCELL_ASSIGN(Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
+  return PackFile(std::move(file), std::move(directory), std::move(viewpoints));
+}
+
+// The stored bytes and their padding, whose checksum is right.
+Result<std::vector<std::byte>> PackFile::readPage(uint32_t page, PageKind kind) const {
+  FARCELL_CHECK(page < directory_.pages.size() && directory_.pages[page].kind == kind);
+  const PageRecord& record = directory_.pages[page];
+  FARCELL_ASSIGN(std::vector<std::byte> bytes, readBytes(file_, record.offsetBytes, alignedUp(record.storedBytes)));
+  const uint64_t checksum = hashBytes(bytes);
+  if (checksum != record.checksum)
+    return inPage(*this, page, fmt::format("expected checksum {:016x}, found {:016x}", record.checksum, checksum));
+  const auto padding = bytes.begin() + record.storedBytes;
+  if (std::any_of(padding, bytes.end(), [](std::byte b) { return b != std::byte{0}; }))
+    return inPage(*this, page, "expected padding of 0, found others");
+  bytes.resize(record.storedBytes);
+  return bytes;
+}
+
+Result<GeometryPage> PackFile::readGeometry(uint32_t page) const {
+  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readPage(page, PageKind::geometry));
+  const PageRecord& record = directory_.pages[page];
+  const CellRecord& cell = directory_.cells[record.cell];
+  const uint32_t maxCoordinate = 1u << (directory_.model.grid.bits - static_cast<int>(cell.key.level));
+  Result<GeometryPage> decoded = decodeGeometryPage(bytes, {maxCoordinate, record.decodedBytes});
+  if (!decoded) return inPage(*this, page, decoded.error().message);
+  const Result<> checked = checkDecodedSize(record.decodedBytes, decodedSizeBytes(*decoded)).and_then([&] {
+    return checkGeometry(*decoded, cell, directory_.model);
+  });
+  if (!checked) return inPage(*this, page, checked.error().message);
+  return decoded;
+}
+
+Result<ViewPage> PackFile::readViews(uint32_t page) const {
+  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readPage(page, PageKind::views));
+  const PageRecord& record = directory_.pages[page];
+  const ViewLimits limits{static_cast<uint32_t>(directory_.model.settings.views),
+                          static_cast<uint32_t>(directory_.model.settings.imageSize), record.decodedBytes};
+  Result<ViewPage> decoded = decodeViewPage(bytes, limits);
+  if (!decoded) return inPage(*this, page, decoded.error().message);
+  const Result<> checked = checkDecodedSize(record.decodedBytes, decodedSizeBytes(*decoded)).and_then([&] {
+    return checkViews(*decoded, record, directory_.model, viewpoints_);
+  });
+  if (!checked) return inPage(*this, page, checked.error().message);
+  return decoded;
+}
+
+std::vector<Error> PackFile::verify(size_t maxFindings, const std::function<void(uint64_t)>& progress) const {
+  std::vector<Error> findings;
+  const auto note = [&](const auto& result) {
+    if (!result && findings.size() < maxFindings) findings.push_back(result.error());
+  };
+  note(readDirectory(file_));
+  for (uint32_t page = 0; page < directory_.pages.size() && findings.size() < maxFindings; ++page) {
+    if (directory_.pages[page].kind == PageKind::geometry)
+      note(readGeometry(page));
+    else
+      note(readViews(page));
+    if (progress) progress(page + 1);
+  }
+  return findings;
+}
+
+}  // namespace farcell

@@ -1,0 +1,39 @@
+// From a mesh file to a pack file.
+//
+// The life of a build: openMesh -> partitionMesh (leaves in scratch) -> cellTreeOf (every cell up to the root) ->
+// bakeCell for each cell, on all threads, in file order -> PackWriter, in the same order whatever finishes first.
+// Same input and settings, same bytes, at any thread count.
+#pragma once
+
+#include <filesystem>
+
+#include "cache/base/progress.h"
+#include "cache/base/result.h"
+#include "cache/pack/directory.h"
+
+namespace farcell {
+
+struct BuildOptions {
+  BuildSettings settings;
+  int threads = 0;                         // 0: all
+  std::filesystem::path scratchDirectory;  // empty: where the pack goes
+};
+
+// Wall seconds; bake and encode overlap, and share the wall time of their stage by the work of each.
+struct StageSeconds {
+  double read = 0, partition = 0, lod = 0, bake = 0, encode = 0, total = 0;
+};
+
+struct BuildResult {
+  Directory directory;
+  uint64_t packBytes = 0;
+  StageSeconds seconds;
+};
+
+Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::filesystem::path& pack,
+                              const BuildOptions& options, Progress& progress);
+
+// invalidArgument, naming the member, the allowed range and the value found.
+Result<> checkSettings(const BuildSettings& settings);
+
+}  // namespace farcell

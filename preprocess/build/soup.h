@@ -1,0 +1,29 @@
+// The triangles of a grown cell, in the cell's own coordinates, ready to bake.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "preprocess/bake/view_baker.h"
+#include "preprocess/build/cell_tree.h"
+
+namespace farcell {
+
+// Which leaves have content inside a grown cell; and their triangles, cut to it.
+class SoupSource {
+ public:
+  SoupSource(const Model& model, const CellTree& tree, const Partition& partition)
+      : model_(model), tree_(tree), partition_(partition) {}
+
+  // Cells (indices of leaves in the tree) in order of the tree.
+  std::vector<uint32_t> leavesInside(uint32_t cell) const;
+  // Appends the part of `leafCell` that lies in the grown cube of `cell`.
+  Result<> append(uint32_t cell, uint32_t leafCell, CellSoup& soup) const;
+
+ private:
+  const Model& model_;
+  const CellTree& tree_;
+  const Partition& partition_;
+};
+
+}  // namespace farcell

@@ -1,0 +1,172 @@
+#include "preprocess/read/obj_reader.h"
+
+#include <array>
+#include <cmath>
+#include <unordered_set>
+
+#include "preprocess/read/number_text.h"
+#include "preprocess/read/obj_face.h"
+#include "preprocess/read/obj_materials.h"
+#include "preprocess/read/obj_text.h"
+#include "preprocess/read/triangle_batch.h"
+
+namespace farcell {
+namespace {
+
+// Everything but the faces, and what the faces say about themselves as a whole.
+struct ObjContents {
+  Vertices vertices;
+  std::vector<std::string> libraries;                  // rests of mtllib statements
+  std::unordered_set<std::string> usedMaterials;       // by at least one face
+  uint64_t triangles = 0;
+  bool everyCornerHasNormal = true;
+  uint64_t greatestNormal = 0;
+};
+
+// The first pass.
+class ObjScan {
+ public:
+  explicit ObjScan(const InputFile& file) : lines_(file) { contents_.vertices.isWide = true; }
+
+  Result<ObjContents> run() {
+    bool anything = false;
+    for (std::string_view line; lines_.next(line);) {
+      const std::string_view keyword = takeWord(line);
+      anything |= keyword == "v" || keyword == "f";
+      if (keyword == "v") FARCELL_TRY(addVertex(line));
+      if (keyword == "vn") FARCELL_TRY(addNormal(line));
+      if (keyword == "f") FARCELL_TRY(countFace(line));
+      if (keyword == "usemtl") material_ = trimmed(line);
+      if (keyword == "mtllib") contents_.libraries.emplace_back(trimmed(line));
+      if (keyword.find('\0') != std::string_view::npos) return lines_.bad("text", "a zero byte");
+    }
+    if (lines_.failure()) return tl::unexpected<Error>(*lines_.failure());
+    if (!anything) return lines_.bad("'v' and 'f' statements of an OBJ file", "none up to the end of the file");
+    return std::move(contents_);
+  }
+
+ private:
+  Result<> addVertex(std::string_view rest);
+  Result<> addNormal(std::string_view rest);
+  Result<> countFace(std::string_view rest);
+
+  ObjLines lines_;
+  ObjContents contents_;
+  std::string material_;
+  bool materialNoted_ = false;
+  std::string notedMaterial_;
+};
+
+Result<> ObjScan::addVertex(std::string_view rest) {
+  std::array<double, 7> values{};
+  size_t count = 0;
+  for (std::string_view word = takeWord(rest); !word.empty() && count < values.size(); word = takeWord(rest))
+    if (!parseNumber(word, values[count++])) return lines_.bad("a number", word);
+  if (count < 3) return lines_.bad("three coordinates after 'v'", fmt::format("{} numbers", count));
+  Vertices& vertices = contents_.vertices;
+  vertices.wide.emplace_back(values[0], values[1], values[2]);
+  vertices.allFinite &= std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
+  // x y z r g b, perhaps with an alpha; four or five numbers are a weight.
+  const bool hasColour = count >= 6;
+  if (hasColour && vertices.colours.empty()) vertices.colours.resize(vertices.wide.size() - 1, kNoColour);
+  if (hasColour) vertices.colours.push_back(packColour(values[3], values[4], values[5]));
+  if (!hasColour && !vertices.colours.empty()) vertices.colours.push_back(kNoColour);
+  return {};
+}
+
+Result<> ObjScan::addNormal(std::string_view rest) {
+  std::array<float, 3> values{};
+  for (float& value : values) {
+    const std::string_view word = takeWord(rest);
+    if (!parseNumber(word, value)) return lines_.bad("three numbers after 'vn'", word);
+  }
+  contents_.vertices.normals.emplace_back(values[0], values[1], values[2]);
+  return {};
+}
+
+Result<> ObjScan::countFace(std::string_view rest) {
+  const ObjCounts counts{contents_.vertices.wide.size(), contents_.vertices.normals.size()};
+  uint64_t corners = 0;
+  ObjCorner corner;
+  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++corners) {
+    if (!parseObjCorner(word, counts, corner)) return lines_.bad("a face corner such as 7, 7/1, 7//3 or 7/1/3", word);
+    contents_.everyCornerHasNormal &= corner.hasNormal;
+    if (corner.hasNormal) contents_.greatestNormal = std::max(contents_.greatestNormal, corner.normal);
+  }
+  if (corners >= 3) contents_.triangles += corners - 2;
+  if (!materialNoted_ || notedMaterial_ != material_) contents_.usedMaterials.insert(material_);
+  materialNoted_ = true;
+  notedMaterial_ = material_;
+  return {};
+}
+
+class ObjReader final : public MeshReader {
+ public:
+  ObjReader(InputFile file, ObjContents contents, ObjMaterials materials)
+      : file_(std::move(file)), vertices_(std::move(contents.vertices)), materials_(std::move(materials)) {
+    info_.vertices = vertices_.count();
+    info_.declaredTriangles = contents.triangles;
+    info_.hasColours = !vertices_.colours.empty();
+    for (const std::string& name : contents.usedMaterials) info_.hasColours |= materials_.find(name) != nullptr;
+    info_.hasNormals = contents.everyCornerHasNormal && contents.greatestNormal < vertices_.normals.size();
+    normalCount_ = vertices_.normals.size();
+    if (!info_.hasNormals) vertices_.normals = {};
+  }
+
+  const MeshInfo& info() const override { return info_; }
+  Result<MeshCounts> forEachTriangle(const Sink& sink) override;
+
+ private:
+  InputFile file_;
+  Vertices vertices_;
+  ObjMaterials materials_;
+  uint64_t normalCount_ = 0;
+  MeshInfo info_;
+};
+
+// The triangles of one face, a fan around its first corner.
+Result<> addFace(const ObjLines& lines, std::string_view rest, const ObjCounts& counts, uint32_t colour,
+                 TriangleBatch& batch) {
+  ObjCorner first;
+  ObjCorner last;
+  ObjCorner corner;
+  uint64_t corners = 0;
+  for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++corners) {
+    if (!parseObjCorner(word, counts, corner)) return lines.bad("a face corner", word);
+    if (corners == 0) first = corner;
+    if (corners >= 2)
+      batch.add({first.position, last.position, corner.position}, {first.normal, last.normal, corner.normal}, colour);
+    last = corner;
+  }
+  return {};
+}
+
+Result<MeshCounts> ObjReader::forEachTriangle(const Sink& sink) {
+  TriangleBatch batch(vertices_, sink);
+  ObjLines lines(file_);
+  ObjCounts counts;
+  uint32_t colour = defaultColour();
+  for (std::string_view line; !batch.failed() && lines.next(line);) {
+    const std::string_view keyword = takeWord(line);
+    if (keyword == "v") ++counts.positions;
+    if (keyword == "vn") ++counts.normals;
+    if (keyword == "f") FARCELL_TRY(addFace(lines, line, counts, colour, batch));
+    if (keyword == "usemtl") {
+      const uint32_t* kd = materials_.find(trimmed(line));
+      colour = kd ? *kd : defaultColour();
+    }
+  }
+  if (lines.failure()) return tl::unexpected<Error>(*lines.failure());
+  return batch.finish();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MeshReader>> openObj(InputFile file) {
+  FARCELL_ASSIGN(ObjContents contents, ObjScan(file).run());
+  ObjMaterials materials(std::filesystem::path(file.path()).parent_path());
+  for (const std::string& names : contents.libraries) materials.addLibraries(names);
+  return std::make_unique<ObjReader>(std::move(file), std::move(contents), std::move(materials));
+}
+
+}  // namespace farcell

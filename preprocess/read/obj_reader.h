@@ -1,0 +1,15 @@
+// Wavefront OBJ: v (with optional colour), vn, f, usemtl and mtllib (Kd); everything else is passed over.
+#pragma once
+
+#include <memory>
+
+#include "cache/base/file.h"
+#include "preprocess/read/mesh_reader.h"
+
+namespace farcell {
+
+// Reads the whole file once (vertices are kept, faces counted and checked); each pass over the triangles reads the
+// faces again.
+Result<std::unique_ptr<MeshReader>> openObj(InputFile file);
+
+}  // namespace farcell

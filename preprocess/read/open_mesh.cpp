@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/obj_reader.h"
+#include "preprocess/read/ply_header.h"
+#include "preprocess/read/ply_reader.h"
+
+namespace farcell {
+namespace {
+
+std::string lowerExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+struct OtherFormat {
+  const char* extension;
+  const char* name;
+};
+constexpr std::array<OtherFormat, 4> kOtherFormats = {
+    {{".stl", "STL"}, {".off", "OFF"}, {".gltf", "glTF"}, {".glb", "binary glTF"}}};
+
+}  // namespace
+
+Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path) {
+  FARCELL_ASSIGN(InputFile file, InputFile::open(path));
+  const std::string extension = lowerExtension(path);
+  if (startsLikePly(file) || extension == ".ply") return openPly(std::move(file));
+  if (extension == ".obj") return openObj(std::move(file));
+  for (const OtherFormat& other : kOtherFormats)
+    if (extension == other.extension)
+      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY or OBJ", file.path(), other.name);
+  return fail(ErrorKind::unsupported, "{}: expected a PLY file or a name ending in .ply or .obj, found '{}'", file.path(),
+              extension);
+}
+
+}  // namespace farcell

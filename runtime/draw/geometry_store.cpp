@@ -1,0 +1,140 @@
+#include "runtime/draw/geometry_store.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+
+#include "cache/base/check.h"
+
+namespace farcell {
+namespace {
+
+// A chunk's shares: flat-shaded meshes have about as many vertices as triangles.
+constexpr uint64_t kChunkVertices = 400'000;
+constexpr uint64_t kChunkIndices = 1'200'000;
+constexpr uint64_t kChunkBytes = kChunkVertices * sizeof(GpuVertex) + kChunkIndices * sizeof(uint32_t);
+
+// Layout fixed by OpenGL (glMultiDrawElementsIndirect).
+struct DrawCommand {
+  uint32_t indexCount;
+  uint32_t instanceCount;
+  uint32_t firstIndex;
+  int32_t baseVertex;
+  uint32_t baseInstance;
+};
+
+GlVertexArray createLayout() {
+  GlVertexArray layout = createVertexArray();
+  const GLuint name = layout.name();
+  for (GLuint attribute = 0; attribute < 3; ++attribute) {
+    glEnableVertexArrayAttrib(name, attribute);
+    glVertexArrayAttribBinding(name, attribute, 0);
+  }
+  glVertexArrayAttribIFormat(name, 0, 3, GL_INT, offsetof(GpuVertex, position));
+  glVertexArrayAttribFormat(name, 1, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GpuVertex, colour));
+  glVertexArrayAttribFormat(name, 2, 2, GL_SHORT, GL_TRUE, offsetof(GpuVertex, normal));
+  return layout;
+}
+
+}  // namespace
+
+bool GeometryStore::keep(uint32_t cell) {
+  const auto found = residents_.find(cell);
+  if (found == residents_.end()) return false;
+  found->second.portion = portion_;
+  return true;
+}
+
+bool GeometryStore::add(uint32_t cell, const GpuMesh& mesh) {
+  FARCELL_CHECK(!mesh.indices.empty() && residents_.count(cell) == 0);
+  const uint64_t needBytes = mesh.vertices.size() * sizeof(GpuVertex) + mesh.indices.size() * sizeof(uint32_t);
+  while (!place(cell, mesh)) {
+    if (usedBytes_ + std::max(needBytes, std::min(kChunkBytes, budgetBytes_)) <= budgetBytes_) {
+      addChunk(mesh);
+    } else if (!evictOldest()) {
+      if (!residents_.empty()) return false;
+      addChunk(mesh);
+    }
+  }
+  return true;
+}
+
+bool GeometryStore::place(uint32_t cell, const GpuMesh& mesh) {
+  const auto vertexCount = static_cast<uint32_t>(mesh.vertices.size());
+  const auto indexCount = static_cast<uint32_t>(mesh.indices.size());
+  for (auto chunk = chunks_.begin(); chunk != chunks_.end(); ++chunk) {
+    const auto firstVertex = chunk->vertexRanges.allocate(vertexCount);
+    if (!firstVertex) continue;
+    const auto firstIndex = chunk->indexRanges.allocate(indexCount);
+    if (!firstIndex) {
+      chunk->vertexRanges.release(*firstVertex, vertexCount);
+      continue;
+    }
+    glNamedBufferSubData(chunk->vertices.name(), static_cast<GLintptr>(*firstVertex * sizeof(GpuVertex)),
+                         static_cast<GLsizeiptr>(vertexCount * sizeof(GpuVertex)), mesh.vertices.data());
+    glNamedBufferSubData(chunk->indices.name(), static_cast<GLintptr>(*firstIndex * sizeof(uint32_t)),
+                         static_cast<GLsizeiptr>(indexCount * sizeof(uint32_t)), mesh.indices.data());
+    residents_[cell] = {chunk, *firstVertex, vertexCount, *firstIndex, indexCount, portion_};
+    return true;
+  }
+  return false;
+}
+
+void GeometryStore::addChunk(const GpuMesh& mesh) {
+  // A small budget gets smaller chunks; a mesh larger than a chunk one of its own.
+  const uint64_t bytes = std::min(kChunkBytes, budgetBytes_);
+  const auto vertices = static_cast<uint32_t>(std::max<uint64_t>(mesh.vertices.size(), kChunkVertices * bytes / kChunkBytes));
+  const auto indices = static_cast<uint32_t>(std::max<uint64_t>(mesh.indices.size(), kChunkIndices * bytes / kChunkBytes));
+  const uint64_t sizeBytes = vertices * sizeof(GpuVertex) + indices * sizeof(uint32_t);
+  chunks_.push_back({createBuffer(), createBuffer(), RangeAllocator(vertices), RangeAllocator(indices), sizeBytes});
+  const Chunk& chunk = chunks_.back();
+  glNamedBufferStorage(chunk.vertices.name(), static_cast<GLsizeiptr>(vertices * sizeof(GpuVertex)), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(chunk.indices.name(), static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  usedBytes_ += sizeBytes;
+}
+
+bool GeometryStore::evictOldest() {
+  const auto oldest = std::min_element(residents_.begin(), residents_.end(), [](const auto& l, const auto& r) {
+    return l.second.portion < r.second.portion;
+  });
+  if (oldest == residents_.end() || oldest->second.portion == portion_) return false;
+  const Resident resident = oldest->second;
+  residents_.erase(oldest);
+  resident.chunk->vertexRanges.release(resident.firstVertex, resident.vertexCount);
+  resident.chunk->indexRanges.release(resident.firstIndex, resident.indexCount);
+  if (resident.chunk->vertexRanges.empty()) {
+    usedBytes_ -= resident.chunk->sizeBytes;
+    chunks_.erase(resident.chunk);
+  }
+  return true;
+}
+
+void GeometryStore::draw(const std::vector<uint32_t>& cells) {
+  if (cells.empty()) return;
+  if (!layout_) layout_ = createLayout();
+  if (!commands_) commands_ = createBuffer();
+  std::map<const Chunk*, std::vector<DrawCommand>> perChunk;
+  for (const uint32_t cell : cells) {
+    const Resident& resident = residents_.at(cell);
+    perChunk[&*resident.chunk].push_back(
+        {resident.indexCount, 1, resident.firstIndex, static_cast<int32_t>(resident.firstVertex), 0});
+  }
+  std::vector<DrawCommand> commands;
+  for (const auto& [chunk, list] : perChunk) commands.insert(commands.end(), list.begin(), list.end());
+  glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(commands.size() * sizeof(DrawCommand)), commands.data(),
+                    GL_STREAM_DRAW);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+  glBindVertexArray(layout_.name());
+  size_t first = 0;
+  for (const auto& [chunk, list] : perChunk) {
+    glVertexArrayVertexBuffer(layout_.name(), 0, chunk->vertices.name(), 0, sizeof(GpuVertex));
+    glVertexArrayElementBuffer(layout_.name(), chunk->indices.name());
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
+                                static_cast<GLsizei>(list.size()), 0);
+    first += list.size();
+  }
+}
+
+}  // namespace farcell

@@ -1,0 +1,63 @@
+// Full triangles of cells on the GPU, within a byte budget; the cells used longest ago leave first.
+//
+// A frame is drawn in portions: what was asked for since `beginPortion` stays until the next one. When `add` refuses,
+// the caller draws what it has, begins a new portion and adds again.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/draw/gpu_mesh.h"
+#include "runtime/draw/range_allocator.h"
+#include "runtime/gl/objects.h"
+
+namespace farcell {
+
+class GeometryStore {
+ public:
+  // One cell is always held, also when it alone is larger than the budget.
+  explicit GeometryStore(uint64_t budgetBytes) : budgetBytes_(budgetBytes) {}
+
+  void beginPortion() { ++portion_; }
+  // Keeps a resident cell for this portion; false when it is not resident.
+  bool keep(uint32_t cell);
+  // Uploads and keeps. False, and nothing changed that matters, when the portion's cells leave no room.
+  bool add(uint32_t cell, const GpuMesh& mesh);
+  // Draws resident cells kept in this portion, with the bound program: one multi-draw for each buffer they lie in.
+  void draw(const std::vector<uint32_t>& cells);
+
+  uint64_t usedBytes() const { return usedBytes_; }
+
+ private:
+  // One vertex and one index buffer, shared by many cells.
+  struct Chunk {
+    GlBuffer vertices;
+    GlBuffer indices;
+    RangeAllocator vertexRanges;
+    RangeAllocator indexRanges;
+    uint64_t sizeBytes;
+  };
+  using ChunkIterator = std::list<Chunk>::iterator;
+  struct Resident {
+    ChunkIterator chunk;
+    uint32_t firstVertex, vertexCount;
+    uint32_t firstIndex, indexCount;
+    uint64_t portion;  // last use
+  };
+
+  bool place(uint32_t cell, const GpuMesh& mesh);
+  void addChunk(const GpuMesh& mesh);
+  bool evictOldest();
+
+  uint64_t budgetBytes_;
+  uint64_t usedBytes_ = 0;
+  uint64_t portion_ = 0;
+  std::list<Chunk> chunks_;
+  std::unordered_map<uint32_t, Resident> residents_;
+  GlVertexArray layout_;
+  GlBuffer commands_;
+};
+
+}  // namespace farcell

@@ -1,0 +1,77 @@
+#include "runtime/draw/gpu_mesh.h"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "cache/schema/model.h"
+#include "shaders/shared/shading.h"
+
+namespace farcell {
+namespace {
+
+constexpr uint32_t kOpaque = 0xff000000u;
+
+uint32_t packedDefaultAlbedo() {
+  return kDefaultAlbedo[0] | static_cast<uint32_t>(kDefaultAlbedo[1]) << 8 | static_cast<uint32_t>(kDefaultAlbedo[2]) << 16;
+}
+
+uint32_t packedOctahedral(glm::vec3 unit) {
+  const glm::vec2 p = shared::octahedralFromUnit(unit);
+  const auto snorm = [](float v) { return static_cast<uint16_t>(static_cast<int16_t>(std::lround(v * 32767.0f))); };
+  return static_cast<uint32_t>(snorm(p.x)) | static_cast<uint32_t>(snorm(p.y)) << 16;
+}
+
+// Gives each triangle a last corner that carries its normal.
+void assignFlatNormals(GpuMesh& mesh) {
+  std::vector<bool> owned(mesh.vertices.size(), false);
+  for (size_t first = 0; first < mesh.indices.size(); first += 3) {
+    const std::array<uint32_t, 3> corners = {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
+    const uint32_t normal = packedOctahedral(faceNormal(mesh.vertices[corners[0]].position,
+                                                        mesh.vertices[corners[1]].position,
+                                                        mesh.vertices[corners[2]].position));
+    size_t chosen = 3;
+    for (size_t i = 0; i < 3 && chosen == 3; ++i)
+      if (!owned[corners[i]] || mesh.vertices[corners[i]].normal == normal) chosen = i;
+    const size_t last = chosen == 3 ? 2 : chosen;
+    mesh.indices[first] = corners[(last + 1) % 3];
+    mesh.indices[first + 1] = corners[(last + 2) % 3];
+    mesh.indices[first + 2] = corners[last];
+    if (chosen == 3) {
+      mesh.indices[first + 2] = static_cast<uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(mesh.vertices[corners[last]]);
+      owned.push_back(true);
+    }
+    owned[mesh.indices[first + 2]] = true;
+    mesh.vertices[mesh.indices[first + 2]].normal = normal;
+  }
+}
+
+}  // namespace
+
+glm::vec3 faceNormal(GridPoint a, GridPoint b, GridPoint c) {
+  // Edges are below 2^25 steps: products and their differences fit 64 bits.
+  const std::array<int64_t, 3> u = {b.x - a.x, b.y - a.y, b.z - a.z};
+  const std::array<int64_t, 3> v = {c.x - a.x, c.y - a.y, c.z - a.z};
+  const glm::dvec3 cross(static_cast<double>(u[1] * v[2] - u[2] * v[1]), static_cast<double>(u[2] * v[0] - u[0] * v[2]),
+                         static_cast<double>(u[0] * v[1] - u[1] * v[0]));
+  const double length = glm::length(cross);
+  return length > 0 ? glm::vec3(cross / length) : glm::vec3(0, 0, 1);
+}
+
+GpuMesh makeGpuMesh(const GeometryPage& page, GridPoint origin) {
+  GpuMesh mesh;
+  mesh.vertices.resize(page.positions.size());
+  const uint32_t albedo = packedDefaultAlbedo();
+  for (size_t i = 0; i < page.positions.size(); ++i) {
+    GpuVertex& vertex = mesh.vertices[i];
+    vertex.position = origin + GridPoint(page.positions[i]);
+    vertex.colour = (page.colours.empty() ? albedo : page.colours[i]) | kOpaque;
+    if (!page.normals.empty()) vertex.normal = page.normals[i];
+  }
+  mesh.indices = page.indices;
+  if (page.normals.empty()) assignFlatNormals(mesh);
+  return mesh;
+}
+
+}  // namespace farcell

@@ -1,0 +1,31 @@
+// A geometry page as the GPU draws it. Positions are integers on the model's grid, so that neighbouring cells agree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cache/pack/pages.h"
+#include "cache/schema/grid.h"
+
+namespace farcell {
+
+struct GpuVertex {
+  GridPoint position{0};  // grid steps from the grid's origin
+  uint32_t colour = 0;    // 0xffBBGGRR
+  uint32_t normal = 0;    // octahedral, snorm16 pair; flat faces: of the triangle whose last corner this is
+};
+static_assert(sizeof(GpuVertex) == 20);
+
+struct GpuMesh {
+  std::vector<GpuVertex> vertices;
+  std::vector<uint32_t> indices;  // three a triangle; the last corner is the provoking one
+};
+
+// `origin`: the lowest corner of the cell's cube. A page without normals has flat faces: each triangle is rotated so
+// that its last corner carries its normal; a corner is copied only when all three carry other triangles' normals.
+GpuMesh makeGpuMesh(const GeometryPage& page, GridPoint origin);
+
+// Unit normal of a triangle on the grid, exact up to the last rounding; of a triangle without area: +z.
+glm::vec3 faceNormal(GridPoint a, GridPoint b, GridPoint c);
+
+}  // namespace farcell

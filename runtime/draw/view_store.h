@@ -1,0 +1,58 @@
+// Views on the GPU: one layer each of a colour array (RGBA8 with mips) and a depth array (R8), within a byte budget.
+// Portions as in geometry_store.h; the views used longest ago leave first.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "cache/pack/pages.h"
+#include "runtime/gl/objects.h"
+
+namespace farcell {
+
+// What a draw must know about a resident view.
+struct ResidentView {
+  int layer = -1;  // -1: the view is empty, there is nothing to draw
+  uint32_t x0 = 0, y0 = 0, width = 0, height = 0;
+  float depthMin = 0, depthMax = 0;
+};
+
+class ViewStore {
+ public:
+  // REQUIRES: a current context. One layer is always held.
+  ViewStore(int imageSize, uint64_t budgetBytes);
+
+  void beginPortion() { ++portion_; }
+  // Keeps a known view for this portion; null when it has to be added.
+  const ResidentView* keep(uint32_t cell, uint32_t view);
+  // Uploads and keeps; an empty image (width 0) costs no layer. Null when the portion's views leave no room.
+  const ResidentView* add(uint32_t cell, uint32_t view, const ViewImage& image);
+  // Colours to texture unit 0, depths to unit 1. REQUIRES: an added view that is not empty.
+  void bind() const;
+
+  uint64_t usedBytes() const;
+
+ private:
+  using Key = std::pair<uint32_t, uint32_t>;
+  struct Entry {
+    ResidentView view;
+    uint64_t portion;
+  };
+  int takeLayer();
+  void grow(int layers);
+  bool evictOldest();
+  void upload(int layer, const ViewImage& image) const;
+
+  int imageSize_;
+  int maxLayers_;
+  int layers_ = 0;
+  uint64_t portion_ = 0;
+  GlTexture colours_;
+  GlTexture depths_;
+  std::vector<int> freeLayers_;
+  std::map<Key, Entry> entries_;
+};
+
+}  // namespace farcell

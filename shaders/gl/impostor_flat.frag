@@ -1,0 +1,16 @@
+#include "shaders/shared/draw.h"
+
+layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
+layout(binding = 0) uniform sampler2DArray colours;
+
+in vec2 texel;
+flat in vec2 layerAndLod;
+
+layout(location = 0) out vec4 colour;            // premultiplied by coverage
+layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
+
+void main() {
+  float lod = layerAndLod.y - log2(gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
+  colour = textureLod(colours, vec3(texel * frame.image.y, layerAndLod.x), lod);
+  impostorCoverage = colour.aaaa;
+}

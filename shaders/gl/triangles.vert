@@ -1,0 +1,30 @@
+// Full triangles. Vertices are integers on the model's grid: the difference to the eye is exact, and the same for the
+// cells on both sides of a shared corner, so that no cracks open.
+#include "shaders/shared/draw.h"
+#include "shaders/shared/shading.h"
+
+layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
+
+layout(location = 0) in ivec3 position;  // grid steps
+layout(location = 1) in vec4 colour;
+layout(location = 2) in vec2 normal;     // octahedral; flat faces: of the provoking vertex's triangle
+
+out vec3 albedo;
+#ifdef SMOOTH_NORMALS
+out vec3 surfaceNormal;
+#else
+flat out float light;
+#endif
+
+void main() {
+  vec3 relative = vec3(position - frame.eyeSteps.xyz) - frame.eyeFraction.xyz;
+  gl_Position = vec4(dot(frame.clipX.xyz, relative), dot(frame.clipY.xyz, relative), frame.eyeFraction.w,
+                     dot(frame.clipW.xyz, relative));
+  albedo = colour.rgb;
+  vec3 unit = unitFromOctahedral(normal);
+#ifdef SMOOTH_NORMALS
+  surfaceNormal = unit;
+#else
+  light = lightFactor(unit, frame.sun.xyz);
+#endif
+}

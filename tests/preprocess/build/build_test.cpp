@@ -1,0 +1,189 @@
+#include "preprocess/build/build.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "cache/base/file.h"
+#include "cache/pack/pack_file.h"
+#include "cache/schema/view_frame.h"
+#include "preprocess/build/cell_bake.h"
+#include "preprocess/read/mesh_reader.h"
+
+namespace farcell {
+namespace {
+
+// A closed sphere of 2 * rings * 2 * rings triangles as an OBJ file.
+std::string sphereObj(int rings, double radius, glm::dvec3 centre) {
+  std::string text;
+  const int columns = 2 * rings;
+  for (int i = 0; i <= rings; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const double polar = std::numbers::pi * i / rings, azimuth = 2 * std::numbers::pi * j / columns;
+      const glm::dvec3 p = centre + radius * glm::dvec3(std::sin(polar) * std::cos(azimuth),
+                                                        std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      text += fmt::format("v {:.12g} {:.12g} {:.12g}\n", p.x, p.y, p.z);
+    }
+  }
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const int a = i * columns + j + 1, b = i * columns + (j + 1) % columns + 1;
+      text += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + columns, b, b, a + columns, b + columns);
+    }
+  }
+  return text;
+}
+
+class BuildPack : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = std::filesystem::path(testing::TempDir()) / fmt::format("farcell-build-{}", ::getpid());
+    std::filesystem::create_directories(directory_);
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+    return directory_ / name;
+  }
+  Result<BuildResult> build(const std::filesystem::path& mesh, const std::string& pack, BuildOptions options = {}) const {
+    Progress silent(false);
+    return buildPack(mesh, directory_ / pack, options, silent);
+  }
+  std::string bytesOf(const std::string& name) const {
+    return readTextFile(directory_ / name, uint64_t{1} << 30).value();
+  }
+
+  std::filesystem::path directory_;
+};
+
+BuildOptions smallLeaves() {
+  BuildOptions options;
+  options.settings.leafTriangles = 600;
+  options.settings.imageSize = 64;
+  options.settings.samples = 16;
+  return options;
+}
+
+TEST_F(BuildPack, ThePackOpensAndVerifiesAndCountsWhatWentIn) {
+  const auto mesh = write("sphere.obj", sphereObj(40, 3, glm::dvec3(0)));
+  const Result<BuildResult> built = build(mesh, "sphere.far", smallLeaves());
+  ASSERT_TRUE(built) << built.error().message;
+  const Result<PackFile> pack = PackFile::open(directory_ / "sphere.far");
+  ASSERT_TRUE(pack) << pack.error().message;
+  EXPECT_EQ(pack->sizeBytes(), built->packBytes);
+  EXPECT_TRUE(pack->verify(10, [](uint64_t) {}).empty());
+  const BuildReport& report = pack->directory().report;
+  // 80 slivers at each pole have two equal corners: 40 rings of 160 triangles, less one of two at either end.
+  EXPECT_EQ(report.inputTriangles, 40u * 160 - 160);
+  EXPECT_EQ(report.skipped.at(kSkippedZeroArea), 160u);
+  EXPECT_EQ(report.viewsBaked, report.viewsKept + report.viewsLeftOut.at("empty"));
+  EXPECT_GT(pack->directory().cells.size(), 9u);
+}
+
+TEST_F(BuildPack, OneThreadAndFourGiveTheSameBytes) {
+  const auto mesh = write("sphere.obj", sphereObj(40, 3, glm::dvec3(1e6, -2e6, 5)));
+  BuildOptions options = smallLeaves();
+  options.threads = 1;
+  ASSERT_TRUE(build(mesh, "one.far", options));
+  options.threads = 4;
+  ASSERT_TRUE(build(mesh, "four.far", options));
+  EXPECT_TRUE(bytesOf("one.far") == bytesOf("four.far"));
+}
+
+TEST_F(BuildPack, LeafTrianglesTileTheSphere) {
+  const auto mesh = write("sphere.obj", sphereObj(60, 1, glm::dvec3(0)));
+  ASSERT_TRUE(build(mesh, "sphere.far", smallLeaves()));
+  const PackFile pack = PackFile::open(directory_ / "sphere.far").value();
+  const Directory& directory = pack.directory();
+  double area = 0;
+  for (const CellRecord& cell : directory.cells) {
+    if (cell.geometryPage == kNone) continue;
+    const GeometryPage page = pack.readGeometry(cell.geometryPage).value();
+    EXPECT_EQ(page.indices.size(), 3 * cell.triangles);
+    for (size_t i = 0; i < page.indices.size(); i += 3) {
+      const auto corner = [&](size_t k) { return glm::dvec3(page.positions[page.indices[i + k]]); };
+      area += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+  }
+  area *= directory.model.grid.step() * directory.model.grid.step();
+  EXPECT_NEAR(area, 4 * std::numbers::pi, 0.03);
+}
+
+// Every view of the root sees a disc: area and prefiltered edge come out of coverage.
+TEST_F(BuildPack, RootViewsOfASphereCoverADiscFromEveryDirection) {
+  const auto mesh = write("sphere.obj", sphereObj(60, 1, glm::dvec3(0)));
+  ASSERT_TRUE(build(mesh, "sphere.far", smallLeaves()));
+  const PackFile pack = PackFile::open(directory_ / "sphere.far").value();
+  const Directory& directory = pack.directory();
+  const CellRecord& root = directory.cells[0];
+  const double texel = texelSize(64) * cellHalfSide(directory.model.grid, root.key);
+  int views = 0;
+  for (uint32_t i = 0; i < root.viewPageCount; ++i) {
+    const ViewPage page = pack.readViews(root.firstViewPage + i).value();
+    for (const ViewImage& image : page.views) {
+      ++views;
+      double coverage = 0;
+      for (size_t t = 3; t < image.rgba.size(); t += 4) coverage += image.rgba[t] / 255.0;
+      EXPECT_NEAR(coverage * texel * texel, std::numbers::pi, 0.02) << "view " << image.view;
+      // The nearest point of a sphere is one radius towards the viewer.
+      EXPECT_NEAR(image.depthMax * cellHalfSide(directory.model.grid, root.key), 1.0, 0.02);
+    }
+  }
+  EXPECT_EQ(views, 42);
+}
+
+TEST_F(BuildPack, StreamedLeavesBakeTheSameViewsAsGatheredOnes) {
+  const auto path = write("sphere.obj", sphereObj(40, 1, glm::dvec3(0)));
+  const BuildOptions options = smallLeaves();
+  const std::unique_ptr<MeshReader> mesh = openMesh(path).value();
+  Progress silent(false);
+  const Partition partition = partitionMesh(*mesh, options.settings, directory_, 1, silent).value();
+  const CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
+  const Model model{partition.grid, partition.bounds, options.settings, false, false};
+  const Viewpoints viewpoints = Viewpoints::create(42).value();
+  const CellPages gathered = bakeCell(0, model, tree, partition, viewpoints).value();
+  const CellPages streamed = bakeCell(0, model, tree, partition, viewpoints, 0).value();
+  ASSERT_EQ(gathered.pages.size(), streamed.pages.size());
+  for (size_t i = 0; i < gathered.pages.size(); ++i) EXPECT_TRUE(gathered.pages[i].bytes == streamed.pages[i].bytes);
+}
+
+TEST_F(BuildPack, AFailureLeavesTheOlderPackWhole) {
+  const auto good = write("sphere.obj", sphereObj(10, 1, glm::dvec3(0)));
+  ASSERT_TRUE(build(good, "model.far"));
+  const std::string before = bytesOf("model.far");
+  const auto bad = write("bad.obj", "v 0 0 0\n");
+  ASSERT_FALSE(build(bad, "model.far"));
+  EXPECT_EQ(bytesOf("model.far"), before);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 3) << "no temporary file is left";
+}
+
+TEST_F(BuildPack, MeaninglessSettingsAreMisuse) {
+  const auto mesh = write("sphere.obj", sphereObj(4, 1, glm::dvec3(0)));
+  const auto kindOf = [&](auto change) {
+    BuildOptions options;
+    change(options.settings);
+    const auto result = build(mesh, "never.far", options);
+    return result ? ErrorKind::io : result.error().kind;
+  };
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.views = 43; }), ErrorKind::invalidArgument);
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.imageSize = 100; }), ErrorKind::invalidArgument);
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.samples = 5; }), ErrorKind::invalidArgument);
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.leafTriangles = 0; }), ErrorKind::invalidArgument);
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.metresPerUnit = -1; }), ErrorKind::invalidArgument);
+}
+
+TEST_F(BuildPack, OneTriangleIsAModel) {
+  const auto mesh = write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Result<BuildResult> built = build(mesh, "one.far");
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_TRUE(PackFile::open(directory_ / "one.far"));
+}
+
+}  // namespace
+}  // namespace farcell

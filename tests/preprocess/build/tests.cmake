@@ -1,0 +1,1 @@
+farcell_tests(preprocess/build DEPS farcell_preprocess_build)

@@ -1,0 +1,1 @@
+farcell_tests(preprocess/encode DEPS farcell_preprocess_encode)

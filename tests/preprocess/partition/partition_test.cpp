@@ -1,0 +1,177 @@
+#include "preprocess/partition/partition.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <map>
+#include <random>
+
+namespace farcell {
+namespace {
+
+// A mesh in memory.
+class MemoryMesh : public MeshReader {
+ public:
+  explicit MemoryMesh(std::vector<InputTriangle> triangles) : triangles_(std::move(triangles)) {
+    info_.declaredTriangles = triangles_.size();
+  }
+  const MeshInfo& info() const override { return info_; }
+  Result<MeshCounts> forEachTriangle(const Sink& sink) override {
+    FARCELL_TRY(sink(triangles_));
+    return MeshCounts{triangles_.size(), {}};
+  }
+
+ private:
+  MeshInfo info_;
+  std::vector<InputTriangle> triangles_;
+};
+
+InputTriangle inputTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  InputTriangle triangle{};
+  triangle.positions = {a, b, c};
+  return triangle;
+}
+
+// A closed tetrahedral soup: `count` tetrahedra of sizes from largest / 1000 to `largest` in a box of `size` at `offset`.
+std::vector<InputTriangle> tetrahedra(std::mt19937& random, int count, double size, glm::dvec3 offset,
+                                      double largest = 1) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto point = [&](double extent) {
+    return glm::dvec3(uniform(random), uniform(random), uniform(random)) * extent;
+  };
+  std::vector<InputTriangle> triangles;
+  for (int i = 0; i < count; ++i) {
+    const double extent = largest * std::pow(10.0, -3 * uniform(random));
+    const glm::dvec3 base = offset + point(size * (1 - extent));
+    const std::array<glm::dvec3, 4> p = {base + point(size * extent), base + point(size * extent),
+                                         base + point(size * extent), base + point(size * extent)};
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, std::array{0, 3, 1}, std::array{1, 3, 2}, std::array{2, 3, 0}})
+      triangles.push_back(inputTriangle(p[a], p[b], p[c]));
+  }
+  return triangles;
+}
+
+double inputArea(const std::vector<InputTriangle>& triangles) {
+  double sum = 0;
+  for (const InputTriangle& t : triangles)
+    sum += 0.5 * glm::length(glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));
+  return sum;
+}
+
+Result<Partition> partitioned(const std::vector<InputTriangle>& triangles, const BuildSettings& settings, int threads = 2) {
+  MemoryMesh mesh(triangles);
+  Progress silent(false);
+  return partitionMesh(mesh, settings, testing::TempDir(), threads, silent);
+}
+
+double leafArea(const Partition& partition) {
+  double sum = 0;
+  for (const Leaf& leaf : partition.leaves) {
+    const std::vector<GridTriangle> triangles = partition.triangles.read(leaf.list).value();
+    for (const GridTriangle& t : triangles)
+      sum += 0.5 * glm::length(glm::cross(glm::dvec3(t.corners[1] - t.corners[0]), glm::dvec3(t.corners[2] - t.corners[0])));
+  }
+  return sum * partition.grid.step() * partition.grid.step();
+}
+
+bool isAncestor(CellKey above, CellKey below) {
+  while (below.level > above.level) below = below.parent();
+  return above == below;
+}
+
+TEST(PartitionMesh, LeavesTileTheModelAtAnyScaleAndOffset) {
+  const uint32_t seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  for (const auto& [size, offset] : {std::pair{1.0, 0.0}, std::pair{1e-20, 0.0}, std::pair{1e20, 0.0}, std::pair{1e4, 5e6}}) {
+    std::mt19937 random(seed);
+    const auto triangles = tetrahedra(random, 2000, size, glm::dvec3(offset));
+    BuildSettings settings;
+    settings.leafTriangles = 500;
+    const Result<Partition> partition = partitioned(triangles, settings);
+    ASSERT_TRUE(partition) << partition.error().message;
+    EXPECT_GT(partition->leaves.size(), 20u);
+    EXPECT_NEAR(leafArea(*partition) / inputArea(triangles), 1.0, 1e-4);
+    for (size_t i = 0; i < partition->leaves.size(); ++i) {
+      const Leaf& leaf = partition->leaves[i];
+      const GridBox box = cellBox(partition->grid, leaf.key);
+      EXPECT_TRUE(glm::all(glm::greaterThanEqual(leaf.content.min, box.min)));
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(leaf.content.max, box.max)));
+      if (i > 0) {
+        EXPECT_FALSE(isAncestor(partition->leaves[i - 1].key, leaf.key));
+      }
+    }
+  }
+}
+
+TEST(PartitionMesh, NoLeafHoldsMoreThanItMayUnlessTheDepthLimitSaysSo) {
+  std::mt19937 random(7);
+  BuildSettings settings;
+  settings.leafTriangles = 300;
+  settings.maxLevel = 4;
+  const auto partition = partitioned(tetrahedra(random, 3000, 1, glm::dvec3(0), 0.01), settings);
+  ASSERT_TRUE(partition);
+  for (const Leaf& leaf : partition->leaves) {
+    EXPECT_LE(leaf.key.level, 4u);
+    if (leaf.key.level < 4) {
+      EXPECT_LE(partition->triangles.size(leaf.list), 300u);
+    }
+  }
+}
+
+TEST(PartitionMesh, AFixedLevelPutsEveryLeafThere) {
+  std::mt19937 random(8);
+  BuildSettings settings;
+  settings.fixedLevel = 3;
+  const auto partition = partitioned(tetrahedra(random, 500, 1, glm::dvec3(0)), settings);
+  ASSERT_TRUE(partition);
+  for (const Leaf& leaf : partition->leaves) EXPECT_EQ(leaf.key.level, 3u);
+}
+
+TEST(PartitionMesh, TheSameLeavesComeFromOneThreadAndFromFour) {
+  std::mt19937 random(9);
+  const auto triangles = tetrahedra(random, 3000, 1, glm::dvec3(0));
+  BuildSettings settings;
+  settings.leafTriangles = 300;
+  const auto one = partitioned(triangles, settings, 1), four = partitioned(triangles, settings, 4);
+  ASSERT_TRUE(one && four);
+  ASSERT_EQ(one->leaves.size(), four->leaves.size());
+  for (size_t i = 0; i < one->leaves.size(); ++i) {
+    EXPECT_EQ(one->leaves[i].key, four->leaves[i].key);
+    const auto a = *one->triangles.read(one->leaves[i].list), b = *four->triangles.read(four->leaves[i].list);
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(GridTriangle)), 0);
+  }
+}
+
+TEST(PartitionMesh, PointsThatNoSplitCanSeparateEndAtTheDepthLimit) {
+  std::vector<InputTriangle> triangles(2000, inputTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+  triangles.push_back(inputTriangle({0, 0, 0}, {1e6, 0, 0}, {0, 1e6, 0}));
+  BuildSettings settings;
+  settings.leafTriangles = 100;
+  settings.maxLevel = 6;
+  const auto partition = partitioned(triangles, settings);
+  ASSERT_TRUE(partition) << partition.error().message;
+  EXPECT_NEAR(leafArea(*partition) / inputArea(triangles), 1.0, 1e-3);
+}
+
+TEST(PartitionMesh, LargeTrianglesThatAllCoverTheModelAreNotMultiplied) {
+  const std::vector<InputTriangle> triangles(3000, inputTriangle({0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.7}));
+  BuildSettings settings;
+  settings.leafTriangles = 100;
+  const auto partition = partitioned(triangles, settings);
+  ASSERT_TRUE(partition) << partition.error().message;
+  uint64_t pieces = 0;
+  for (const Leaf& leaf : partition->leaves) pieces += partition->triangles.size(leaf.list);
+  EXPECT_LT(pieces, 3u * triangles.size());
+}
+
+TEST(PartitionMesh, AModelWithoutTrianglesIsAnError) {
+  const auto partition = partitioned({}, BuildSettings{});
+  ASSERT_FALSE(partition);
+  EXPECT_EQ(partition.error().kind, ErrorKind::corrupt);
+}
+
+}  // namespace
+}  // namespace farcell

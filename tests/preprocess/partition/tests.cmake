@@ -1,0 +1,1 @@
+farcell_tests(preprocess/partition DEPS farcell_preprocess_partition)

@@ -1,0 +1,1 @@
+farcell_tests(tools/cli DEPS farcell_tools_cli)

@@ -1,0 +1,1 @@
+farcell_tests(tools/evaluate/metrics DEPS farcell_tools_evaluate_metrics)

@@ -1,0 +1,38 @@
+// The run behind `farcell evaluate`:
+// 1. open pack, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
+// 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
+//    (metrics/) and time it;
+// 3. write report.json, report.csv, cameras.json and pictures (report/).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "cache/base/result.h"
+#include "tools/evaluate/metrics/images.h"
+
+namespace farcell {
+
+struct EvaluateOptions {
+  std::filesystem::path pack;
+  std::filesystem::path cameras;   // a camera file; empty: autoCameras
+  int autoCameras = 0;
+  std::filesystem::path mesh;      // empty: the pack's own leaves are the truth
+  std::filesystem::path output;    // directory, made when absent
+  std::string renderers;
+  int width = 1280;
+  int height = 720;
+  int referenceSamples = 64;
+  uint64_t triangleBudget = 500'000;
+  int timedFrames = 5;
+  uint64_t residentBytes = uint64_t{1} << 30;
+  Colour background = {255, 255, 255};
+  bool json = false;               // stdout: the report instead of a table
+};
+
+// An interrupt or a failure after the first camera leaves a report of the cameras that were finished, marked
+// incomplete, and is returned as the error it is.
+Result<> evaluate(const EvaluateOptions& options);
+
+}  // namespace farcell

@@ -1,0 +1,78 @@
+// farcell evaluate: how far a pack's pictures are from the full geometry, and what they cost.
+#include <array>
+#include <cstdio>
+
+#include "tools/cli/cli.h"
+#include "tools/evaluate/evaluate.h"
+#include "tools/evaluate/plan/renderers.h"
+
+namespace farcell {
+namespace {
+
+// What the command line says as text.
+struct Words {
+  std::string size = "1280x720";
+  std::string triangleBudget = "500k";
+  std::string background = "255,255,255";
+  uint64_t residentMib = 1024;
+};
+
+Result<Colour> parseColour(const std::string& text) {
+  std::array<unsigned, 3> values{};
+  int length = 0;
+  const int read = std::sscanf(text.c_str(), "%3u,%3u,%3u%n", &values[0], &values[1], &values[2], &length);
+  if (read != 3 || static_cast<size_t>(length) != text.size() || std::max({values[0], values[1], values[2]}) > 255)
+    return fail(ErrorKind::invalidArgument, "background: expected R,G,B of 0 to 255, found '{}'", text);
+  return Colour{static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
+}
+
+Result<> run(EvaluateOptions& options, const Words& words) {
+  FARCELL_ASSIGN(const ImageSize size, parseImageSize(words.size));
+  options.width = size.width;
+  options.height = size.height;
+  FARCELL_ASSIGN(options.triangleBudget, parseCount(words.triangleBudget));
+  FARCELL_ASSIGN(options.background, parseColour(words.background));
+  options.residentBytes = words.residentMib << 20;
+  if (options.cameras.empty() && options.autoCameras == 0)
+    return fail(ErrorKind::invalidArgument, "one of --cameras and --auto-cameras is needed");
+  return evaluate(options);
+}
+
+void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
+  app.add_option("pack", options.pack, "pack file")->required();
+  auto* cameras = app.add_option("--cameras", options.cameras, "camera file (JSON)");
+  app.add_option("--auto-cameras", options.autoCameras,
+                 "instead: this many cameras between the baked directions, .25 to 8 diameters away")
+      ->check(CLI::Range(1, 1000))
+      ->excludes(cameras);
+  app.add_option("--mesh", options.mesh,
+                 "the file the pack was built from, as the truth instead of the pack's own triangles (held in memory)");
+  app.add_option("--size", words.size, "pixels")->capture_default_str();
+  app.add_option("--renderers", options.renderers, "comma-separated; full-1spp and full-4spp are always included")
+      ->default_val(kAllRenderers);
+  app.add_option("--reference-samples", options.referenceSamples, "per pixel: a square number up to 64")
+      ->capture_default_str();
+  app.add_option("--triangle-budget", words.triangleBudget, "triangles a frame of 'auto' may draw")
+      ->capture_default_str();
+  app.add_option("--frames", options.timedFrames, "warm frames that are timed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--background", words.background, "R,G,B of 0-255 behind every picture")->capture_default_str();
+  app.add_option("--resident-mib", words.residentMib, "how much of the pack may stay on the GPU, MiB")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "print report.json instead of a table");
+  app.add_option("-o,--output", options.output, "directory of the report, made when absent")->required();
+}
+
+}  // namespace
+}  // namespace farcell
+
+int main(int argc, char** argv) {
+  farcell::EvaluateOptions options;
+  farcell::Words words;
+  CLI::App app("Measures a pack's pictures against its full geometry: error and run time of every renderer.",
+               "farcell-evaluate");
+  farcell::addOptions(app, options, words);
+  return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options, words); });
+}

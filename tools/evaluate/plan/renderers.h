@@ -1,0 +1,27 @@
+// The renderers a report can compare, by the names its contract gives them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cache/base/result.h"
+#include "runtime/renderer.h"
+
+namespace farcell {
+
+struct RendererPlan {
+  std::string name;
+  std::string rendererClass;  // geometry, impostor or mixed
+  RenderSettings settings;
+};
+
+inline constexpr const char* kBaselineRenderer = "full-1spp";  // what ratios are relative to
+inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,triangles,flat,A,auto";
+
+// names: comma-separated, any order, repetitions allowed. full-1spp and full-4spp always come first: full geometry is
+// what the user would otherwise look at. invalidArgument for an unknown name, unsupported for B.
+Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,
+                                                uint64_t triangleBudget);
+
+}  // namespace farcell

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "cache/base/hash.h"
+#include "cache/base/interrupt.h"
+#include "cache/base/parallel.h"
+#include "preprocess/read/mesh_reader.h"
+#include "shaders/shared/shading.h"
+#include "tools/evaluate/reference/reference.h"
+#include "tools/evaluate/reference/tracer.h"
+
+namespace farcell {
+namespace {
+
+constexpr uint64_t kMaxTriangles = std::numeric_limits<uint32_t>::max() / 3;  // three positions each, 32-bit indices
+
+Result<uint64_t> hashFile(const std::filesystem::path& path) {
+  FARCELL_ASSIGN(const InputFile file, InputFile::open(path));
+  std::vector<std::byte> chunk(uint64_t{4} << 20);
+  Hasher hasher;
+  for (uint64_t offset = 0; offset < file.sizeBytes(); offset += chunk.size()) {
+    FARCELL_TRY(checkInterrupt());
+    chunk.resize(std::min<uint64_t>(chunk.size(), file.sizeBytes() - offset));
+    FARCELL_TRY(file.readAt(offset, chunk));
+    hasher.add(chunk);
+  }
+  return hasher.value();
+}
+
+Result<> checkSource(const std::filesystem::path& mesh, const Directory& directory) {
+  FARCELL_ASSIGN(const uint64_t hash, hashFile(mesh));
+  if (hash == directory.sourceHash) return {};
+  return fail(ErrorKind::invalidArgument,
+              "{}: hash {:016x}, but the pack was built from '{}' with hash {:016x}: it is not the same file",
+              mesh.string(), hash, directory.sourceName, directory.sourceHash);
+}
+
+uint32_t octahedralBits(glm::vec3 unit) {
+  const glm::vec2 p = shared::octahedralFromUnit(unit);
+  const auto bits = [](float value) {
+    return static_cast<uint32_t>(static_cast<uint16_t>(std::lround(value * 32767.0f)));
+  };
+  return bits(p.x) | bits(p.y) << 16;
+}
+
+// Corners whose normal says nothing take the face's.
+uint32_t cornerNormal(const InputTriangle& triangle, size_t corner) {
+  const glm::dvec3 given(triangle.normals[corner]);
+  if (const double length = glm::length(given); std::isfinite(length) && length > 0)
+    return octahedralBits(glm::vec3(given / length));
+  const glm::dvec3 face = glm::cross(triangle.positions[1] - triangle.positions[0],
+                                     triangle.positions[2] - triangle.positions[0]);
+  const double length = glm::length(face);
+  return octahedralBits(length > 0 ? glm::vec3(face / length) : glm::vec3(0, 0, 1));
+}
+
+// The model's box becomes one of half diagonal 1 around the origin.
+LocalTriangles emptyModel(const Model& model) {
+  LocalTriangles local;
+  local.min = model.grid.worldFromGrid(model.bounds.min);
+  local.max = model.grid.worldFromGrid(model.bounds.max);
+  local.origin = (local.min + local.max) * 0.5;
+  local.unit = std::max(glm::length(local.max - local.min) * 0.5, std::numeric_limits<double>::min());
+  return local;
+}
+
+void appendTriangle(LocalTriangles& local, const InputTriangle& triangle, const MeshInfo& info) {
+  const auto first = static_cast<uint32_t>(local.positions.size());
+  for (size_t corner = 0; corner < 3; ++corner) {
+    const glm::dvec3& world = triangle.positions[corner];
+    local.min = glm::min(local.min, world);
+    local.max = glm::max(local.max, world);
+    local.positions.emplace_back((world - local.origin) / local.unit);
+    if (info.hasColours) local.colours.push_back(triangle.colours[corner]);
+    if (info.hasNormals) local.normals.push_back(cornerNormal(triangle, corner));
+  }
+  local.triangles.emplace_back(first, first + 1, first + 2);
+}
+
+Result<LocalTriangles> readTriangles(const std::filesystem::path& mesh, const Directory& directory,
+                                     const std::function<void(uint64_t)>& progress) {
+  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMesh(mesh));
+  LocalTriangles local = emptyModel(directory.model);
+  const auto sink = [&](std::span<const InputTriangle> batch) -> Result<> {
+    FARCELL_TRY(checkInterrupt());
+    if (local.triangles.size() + batch.size() > kMaxTriangles)
+      return fail(ErrorKind::unsupported, "{}: more than {} triangles", mesh.string(), kMaxTriangles);
+    for (const InputTriangle& triangle : batch) appendTriangle(local, triangle, reader->info());
+    progress(batch.size());
+    return {};
+  };
+  FARCELL_TRY(reader->forEachTriangle(sink));
+  return local;
+}
+
+}  // namespace
+
+struct MeshReference::Impl {
+  EmbreeDevice device;  // outlives the scene
+  TracedGeometry geometry;
+  glm::vec3 light;
+};
+
+MeshReference::MeshReference(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MeshReference::MeshReference(MeshReference&&) noexcept = default;
+MeshReference::~MeshReference() = default;
+
+Result<MeshReference> MeshReference::load(const std::filesystem::path& mesh, const Directory& directory,
+                                          const std::function<void(uint64_t triangles)>& progress) {
+  FARCELL_TRY(checkSource(mesh, directory));
+  FARCELL_ASSIGN(LocalTriangles triangles, readTriangles(mesh, directory, progress));
+  FARCELL_ASSIGN(EmbreeDevice device, createEmbreeDevice(0));
+  FARCELL_ASSIGN(TracedGeometry geometry, buildTracedGeometry(device.get(), std::move(triangles)));
+  const glm::vec3 light = sunDirection(directory.model.settings.up);
+  return MeshReference(std::make_unique<Impl>(Impl{std::move(device), std::move(geometry), light}));
+}
+
+uint64_t MeshReference::triangles() const { return impl_->geometry.triangles.triangles.size(); }
+
+Result<ReferenceImage> MeshReference::trace(const Camera& camera, const ReferenceSettings& settings) const {
+  FARCELL_TRY(checkReferenceSamples(settings.samples));
+  FARCELL_TRY(checkInterrupt());
+  const int perAxis = static_cast<int>(std::lround(std::sqrt(settings.samples)));
+  SampleImage image(referenceView(camera, settings.width, settings.height), perAxis, impl_->light);
+  image.trace({&impl_->geometry, 1}, threadCount(settings.threads));
+  return image.finish();
+}
+
+}  // namespace farcell

@@ -1,0 +1,93 @@
+#include <cmath>
+
+#include "cache/base/interrupt.h"
+#include "cache/base/parallel.h"
+#include "tools/evaluate/reference/leaves.h"
+#include "tools/evaluate/reference/reference.h"
+#include "tools/evaluate/reference/tracer.h"
+
+namespace farcell {
+namespace {
+
+// What is in memory at once: enough leaves to keep all threads busy, no more triangles than this beyond one leaf.
+constexpr size_t kBatchLeaves = 64;
+constexpr uint64_t kBatchTriangles = 500'000;
+
+// A leaf's cube becomes [-1, 1]^3. Grid steps have at most 24 bits, so positions are exact.
+LocalTriangles localTriangles(const Grid& grid, const CellRecord& cell, const GeometryPage& page) {
+  LocalTriangles local;
+  local.origin = cellCentre(grid, cell.key);
+  local.unit = cellHalfSide(grid, cell.key);
+  local.min = grid.worldFromGrid(cell.content.min);
+  local.max = grid.worldFromGrid(cell.content.max);
+  const float steps = std::ldexp(1.0f, grid.bits - static_cast<int>(cell.key.level));
+  local.positions.reserve(page.positions.size() + 1);
+  for (const glm::uvec3& p : page.positions) local.positions.push_back(glm::vec3(p) * (2 / steps) - glm::vec3(1));
+  for (size_t i = 0; i + 2 < page.indices.size(); i += 3)
+    local.triangles.emplace_back(page.indices[i], page.indices[i + 1], page.indices[i + 2]);
+  local.colours = page.colours;
+  local.normals = page.normals;
+  return local;
+}
+
+Result<TracedGeometry> loadLeaf(const PackFile& pack, uint32_t cell, RTCDevice device) {
+  const CellRecord& record = pack.directory().cells[cell];
+  FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(record.geometryPage));
+  return buildTracedGeometry(device, localTriangles(pack.directory().model.grid, record, page));
+}
+
+// The next leaves that still have open samples in front of them.
+std::vector<uint32_t> nextBatch(const std::vector<VisibleLeaf>& leaves, size_t& next, const Directory& directory,
+                                const SampleImage& image) {
+  std::vector<uint32_t> batch;
+  uint64_t triangles = 0;
+  for (; next < leaves.size() && batch.size() < kBatchLeaves && triangles < kBatchTriangles; ++next) {
+    if (!image.unresolved(leaves[next].bounds)) continue;
+    batch.push_back(leaves[next].cell);
+    triangles += directory.cells[leaves[next].cell].triangles;
+  }
+  return batch;
+}
+
+Result<std::vector<TracedGeometry>> loadBatch(const PackFile& pack, const std::vector<uint32_t>& cells,
+                                              RTCDevice device, int threads) {
+  std::vector<TracedGeometry> batch(cells.size());
+  std::vector<Result<>> results(cells.size());
+  parallelFor(cells.size(), threads, [&](size_t i, int) {
+    Result<TracedGeometry> leaf = loadLeaf(pack, cells[i], device);
+    if (leaf)
+      batch[i] = std::move(*leaf);
+    else
+      results[i] = tl::unexpected<Error>(std::move(leaf).error());
+  });
+  for (const Result<>& result : results) FARCELL_TRY(result);
+  return batch;
+}
+
+}  // namespace
+
+Result<> checkReferenceSamples(int samples) {
+  for (int perAxis = 1; perAxis * perAxis <= kMaxReferenceSamples; ++perAxis)
+    if (perAxis * perAxis == samples) return {};
+  return fail(ErrorKind::invalidArgument, "reference samples: expected a square number from 1 to {}, found {}",
+              kMaxReferenceSamples, samples);
+}
+
+Result<ReferenceImage> traceReference(const PackFile& pack, const Camera& camera, const ReferenceSettings& settings) {
+  FARCELL_TRY(checkReferenceSamples(settings.samples));
+  const int threads = threadCount(settings.threads);
+  FARCELL_ASSIGN(const EmbreeDevice device, createEmbreeDevice(1));  // leaves are built side by side
+  const ReferenceView view = referenceView(camera, settings.width, settings.height);
+  const int perAxis = static_cast<int>(std::lround(std::sqrt(settings.samples)));
+  SampleImage image(view, perAxis, sunDirection(pack.directory().model.settings.up));
+  const std::vector<VisibleLeaf> leaves = leavesFrontToBack(pack.directory(), view);
+  for (size_t next = 0; next < leaves.size();) {
+    FARCELL_TRY(checkInterrupt());
+    const std::vector<uint32_t> cells = nextBatch(leaves, next, pack.directory(), image);
+    FARCELL_ASSIGN(const std::vector<TracedGeometry> batch, loadBatch(pack, cells, device.get(), threads));
+    image.trace(batch, threads);
+  }
+  return image.finish();
+}
+
+}  // namespace farcell

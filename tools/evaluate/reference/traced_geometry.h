@@ -1,0 +1,50 @@
+// Triangles that Embree can be asked about, in a frame of their own: local = (world - origin) / unit. The frame keeps
+// float coordinates near 1 wherever the model lies and whatever its size.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+struct LocalTriangles {
+  glm::dvec3 origin{0};
+  double unit = 1;                     // world length of 1
+  glm::dvec3 min{0}, max{0};           // world box around them
+  std::vector<glm::vec3> positions;
+  std::vector<uint32_t> colours;       // 0x00BBGGRR per position; empty: kDefaultAlbedo
+  std::vector<uint32_t> normals;       // octahedral per position, as in GeometryPage; empty: flat faces
+  std::vector<glm::uvec3> triangles;
+};
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+// threads: of one build; 0: all the machine offers.
+Result<EmbreeDevice> createEmbreeDevice(int threads);
+
+// The triangles with their ray tracing scene. Movable; must not outlive its device.
+struct TracedGeometry {
+  LocalTriangles triangles;
+  EmbreeScene scene;  // empty when there are no triangles
+};
+// Robust: rays along shared edges do not slip through. `exhausted` when Embree cannot.
+Result<TracedGeometry> buildTracedGeometry(RTCDevice device, LocalTriangles triangles);
+
+// Lit colour, R, G, B in [0, 1], at barycentric (u, v) of a triangle as Embree reports them. `light` as in shading.h.
+glm::vec3 shadeHit(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::vec3 light);
+
+}  // namespace farcell

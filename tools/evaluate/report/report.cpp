@@ -1,0 +1,220 @@
+#include "tools/evaluate/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "shaders/shared/shading.h"
+#include "tools/evaluate/report/summary.h"
+
+namespace farcell {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* modeName(RenderMode mode) {
+  switch (mode) {
+    case RenderMode::automatic: return "auto";
+    case RenderMode::impostors: return "impostors";
+    case RenderMode::triangles: return "triangles";
+    case RenderMode::full: return "full";
+  }
+  return "";
+}
+
+Json settingsJson(const RenderSettings& settings) {
+  const bool impostors =
+      settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::impostors;
+  Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
+  if (impostors) {
+    json["kind"] = settings.kind == ImpostorKind::flat ? "flat" : "A";
+    json["texelPixels"] = settings.selection.texelPixels;
+  }
+  if (settings.selection.mode == RenderMode::automatic) json["triangleBudget"] = settings.selection.triangleBudget;
+  return json;
+}
+
+Json optionalJson(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json entryJson(const Entry& entry) {
+  const Metrics& m = entry.metrics;
+  return {{"camera", entry.camera},
+          {"renderer", entry.renderer.name},
+          {"class", entry.renderer.rendererClass},
+          {"settings", settingsJson(entry.renderer.settings)},
+          {"paperErrorSum", m.paperErrorSum},
+          {"paperError", m.paperError},
+          {"ratioToFull1spp", optionalJson(entry.ratioToFull1spp)},
+          {"mae", m.mae},
+          {"psnr", m.psnr},
+          {"ssim", m.ssim},
+          {"p95", m.p95},
+          {"p99", m.p99},
+          {"holeRate", m.holeRate},
+          {"leakRate", m.leakRate},
+          {"coverageBias", m.coverageBias},
+          {"silhouetteShare", m.silhouetteShare},
+          {"interiorShare", m.interiorShare},
+          {"impostorShare", m.impostorShare},
+          {"frameMs", {{"median", entry.frame.medianMs}, {"p95", entry.frame.p95Ms}, {"max", entry.frame.maxMs}}},
+          {"cpuMs", entry.cpuMs},
+          {"triangles", entry.triangles},
+          {"impostors", entry.impostors},
+          {"texels", entry.texels},
+          {"bytesRead", entry.bytesRead},
+          {"foregroundPixels", m.foregroundPixels},
+          {"rectanglePixels", m.rectanglePixels},
+          {"diameters", entry.diameters}};
+}
+
+Json ratiosJson(const RatioSummary& ratios) {
+  return {{"cameras", ratios.cameras},
+          {"ratioToFull1spp", optionalJson(ratios.ratioToFull1spp)},
+          {"worstRatio", optionalJson(ratios.worstRatio)}};
+}
+
+Json summaryJson(const std::vector<Entry>& entries) {
+  Json json = Json::object();
+  for (const RendererSummary& summary : summarise(entries)) {
+    json[summary.renderer] = {{"class", summary.rendererClass},
+                              {"ratioToFull1spp", optionalJson(summary.all.ratioToFull1spp)},
+                              {"worstRatio", optionalJson(summary.all.worstRatio)},
+                              {"cameras", summary.all.cameras},
+                              {"mostlyImpostors", ratiosJson(summary.mostlyImpostors)},
+                              {"elsewhere", ratiosJson(summary.elsewhere)},
+                              {"medianFrameMs", summary.medianFrameMs},
+                              {"worstHoleRate", summary.worstHoleRate}};
+  }
+  return json;
+}
+
+std::string processorName() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
+  return "unknown";
+}
+
+Json packJson(const ReportFacts& facts) {
+  const BuildSettings& settings = facts.directory->model.settings;
+  return {{"name", facts.packName},
+          {"bytes", facts.packBytes},
+          {"source", facts.directory->sourceName},
+          {"sourceHash", fmt::format("{:016x}", facts.directory->sourceHash)},
+          {"triangles", facts.directory->report.inputTriangles},
+          {"views", settings.views},
+          {"imageSize", settings.imageSize},
+          {"samples", settings.samples},
+          {"leafTriangles", settings.leafTriangles}};
+}
+
+Json factsJson(const ReportFacts& facts) {
+  const glm::vec3 sun = sunDirection(facts.directory->model.settings.up);
+  return {{"version", FARCELL_VERSION},
+          {"complete", facts.complete},
+          {"pack", packJson(facts)},
+          {"size", {facts.width, facts.height}},
+          {"background", facts.background},
+          {"light", {{"sun", {sun.x, sun.y, sun.z}}, {"ambient", shared::kAmbient}, {"diffuse", shared::kDiffuse}}},
+          {"reference",
+           {{"kind", facts.referenceKind}, {"samples", facts.referenceSamples}, {"seconds", facts.referenceSeconds}}},
+          {"timedFrames", facts.timedFrames},
+          {"psnrCap", kMaxPsnrDb},
+          {"machine", {{"processor", processorName()}, {"threads", std::thread::hardware_concurrency()}}},
+          {"gl", facts.glRenderer}};
+}
+
+// RFC 4180.
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+// Objects become one column a member: frameMs.median.
+void appendFields(const Json& json, const std::string& prefix, bool names, std::vector<std::string>& fields) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object())
+      appendFields(value, prefix + key + ".", names, fields);
+    else if (names)
+      fields.push_back(csvField(prefix + key));
+    else
+      fields.push_back(value.is_null() ? "" : value.is_string() ? csvField(value.get<std::string>()) : value.dump());
+  }
+}
+
+// Settings differ in their members from renderer to renderer: one column of text keeps the lines equal.
+Json flatSettings(Json entry) {
+  std::string text;
+  for (const auto& [key, value] : entry["settings"].items())
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", key,
+                        value.is_string() ? value.get<std::string>() : value.dump());
+  entry["settings"] = text;
+  return entry;
+}
+
+std::string csvLine(const Entry& entry, bool names) {
+  std::vector<std::string> fields;
+  appendFields(flatSettings(entryJson(entry)), "", names, fields);
+  return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+// A camera's name goes to a terminal: no control characters.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
+std::string optionalText(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
+
+std::string entryLine(const Entry& entry) {
+  const Metrics& m = entry.metrics;
+  return fmt::format("{:<20} {:<10} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} {:>6}\n",
+                     printable(entry.camera), entry.renderer.name, m.paperError, optionalText(entry.ratioToFull1spp), m.psnr, m.ssim,
+                     100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs,
+                     entry.triangles, entry.impostors);
+}
+
+std::string summaryLine(const RendererSummary& summary) {
+  return fmt::format("{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9.2f} {:>9.3f}\n", summary.renderer,
+                     summary.rendererClass, optionalText(summary.all.ratioToFull1spp),
+                     optionalText(summary.all.worstRatio),
+                     fmt::format("{} ({})", optionalText(summary.mostlyImpostors.ratioToFull1spp),
+                                 summary.mostlyImpostors.cameras),
+                     fmt::format("{} ({})", optionalText(summary.elsewhere.ratioToFull1spp), summary.elsewhere.cameras),
+                     summary.medianFrameMs, 100 * summary.worstHoleRate);
+}
+
+}  // namespace
+
+Json reportJson(const ReportFacts& facts, const std::vector<Entry>& entries) {
+  Json json = factsJson(facts);
+  json["entries"] = Json::array();
+  for (const Entry& entry : entries) json["entries"].push_back(entryJson(entry));
+  json["summary"] = summaryJson(entries);
+  return json;
+}
+
+std::string reportCsv(const std::vector<Entry>& entries) {
+  std::string text = csvLine({}, true);
+  for (const Entry& entry : entries) text += csvLine(entry, false);
+  return text;
+}
+
+std::string reportTable(const std::vector<Entry>& entries) {
+  std::string text =
+      fmt::format("{:<20} {:<10} {:>8} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n", "camera", "renderer",
+                  "error", "ratio", "psnr", "ssim", "hole %", "leak %", "cover %", "imp.", "frame ms", "triangles", "cells");
+  for (const Entry& entry : entries) text += entryLine(entry);
+  text += fmt::format("\n{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9} {:>9}\n", "renderer", "class", "ratio", "worst",
+                      "impostors >= .8 (n)", "elsewhere (n)", "frame ms", "hole %");
+  for (const RendererSummary& summary : summarise(entries)) text += summaryLine(summary);
+  return text;
+}
+
+}  // namespace farcell

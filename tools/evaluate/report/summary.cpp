@@ -1,0 +1,67 @@
+#include "tools/evaluate/report/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace farcell {
+namespace {
+
+RatioSummary summariseRatios(std::span<const Entry> entries, const std::function<bool(const Entry&)>& chosen) {
+  RatioSummary summary;
+  double logs = 0, worst = 0;
+  for (const Entry& entry : entries) {
+    if (!entry.ratioToFull1spp || !chosen(entry)) continue;
+    ++summary.cameras;
+    logs += std::log(*entry.ratioToFull1spp);  // of 0: minus infinity, and the mean becomes 0, as it should
+    worst = std::max(worst, *entry.ratioToFull1spp);
+  }
+  if (summary.cameras == 0) return summary;
+  summary.ratioToFull1spp = std::exp(logs / static_cast<double>(summary.cameras));
+  summary.worstRatio = worst;
+  return summary;
+}
+
+RendererSummary summariseRenderer(std::span<const Entry> entries, const RendererPlan& renderer) {
+  const auto own = [&](const Entry& entry) { return entry.renderer.name == renderer.name; };
+  const auto impostors = [&](const Entry& entry) { return entry.metrics.impostorShare >= kMostlyImpostors; };
+  RendererSummary summary{renderer.name, renderer.rendererClass, {}, {}, {}, 0, 0};
+  summary.all = summariseRatios(entries, own);
+  summary.mostlyImpostors = summariseRatios(entries, [&](const Entry& e) { return own(e) && impostors(e); });
+  summary.elsewhere = summariseRatios(entries, [&](const Entry& e) { return own(e) && !impostors(e); });
+  std::vector<double> frames;
+  for (const Entry& entry : entries) {
+    if (!own(entry)) continue;
+    frames.push_back(entry.frame.medianMs);
+    summary.worstHoleRate = std::max(summary.worstHoleRate, entry.metrics.holeRate);
+  }
+  summary.medianFrameMs = medianOf(frames);
+  return summary;
+}
+
+}  // namespace
+
+void setRatios(std::vector<Entry>& entries) {
+  std::map<std::string, double> baselines;
+  for (const Entry& entry : entries)
+    if (entry.renderer.name == kBaselineRenderer) baselines[entry.camera] = entry.metrics.paperError;
+  for (Entry& entry : entries) {
+    const auto baseline = baselines.find(entry.camera);
+    if (baseline == baselines.end() || baseline->second <= 0) continue;
+    entry.ratioToFull1spp = entry.metrics.paperError / baseline->second;
+  }
+}
+
+std::vector<RendererSummary> summarise(std::span<const Entry> entries) {
+  std::vector<RendererSummary> summaries;
+  for (const Entry& entry : entries) {
+    const bool known = std::any_of(summaries.begin(), summaries.end(), [&](const RendererSummary& summary) {
+      return summary.renderer == entry.renderer.name;
+    });
+    if (!known) summaries.push_back(summariseRenderer(entries, entry.renderer));
+  }
+  return summaries;
+}
+
+}  // namespace farcell
