@@ -5,7 +5,8 @@
 
 namespace farcell {
 
-// Text of the file at `path` (from the repository root, e.g. "shaders/gl/triangles.vert"); data() is null when there is none.
+// Text of the file at `path` (from the repository root, e.g. "shaders/gl/triangles.vert"); data() is null when there is
+// none.
 std::string_view embeddedShader(std::string_view path);
 
 }  // namespace farcell

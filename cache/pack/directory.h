@@ -17,48 +17,48 @@ enum class PageKind : uint32_t { geometry = 1, views = 2 };
 
 struct PageRecord {
   PageKind kind = PageKind::geometry;
-  uint32_t cell = 0;           // index into Directory::cells
-  uint32_t group = 0;          // views: the viewpoint group (Viewpoints::group) this page holds; geometry: 0
-  uint64_t offsetBytes = 0;    // from the start of the file, a multiple of kPageAlignment
-  uint32_t storedBytes = 0;    // as stored; the padding after it is zero
-  uint32_t decodedBytes = 0;   // what it occupies in memory once decoded: budgets are charged with this
-  uint64_t checksum = 0;       // XXH3-64 of the stored bytes and the padding up to the next page
+  uint32_t cell = 0;          // index into Directory::cells
+  uint32_t group = 0;         // views: the viewpoint group (Viewpoints::group) this page holds; geometry: 0
+  uint64_t offsetBytes = 0;   // from the start of the file, a multiple of kPageAlignment
+  uint32_t storedBytes = 0;   // as stored; the padding after it is zero
+  uint32_t decodedBytes = 0;  // what it occupies in memory once decoded: budgets are charged with this
+  uint64_t checksum = 0;      // XXH3-64 of the stored bytes and the padding up to the next page
 };
 
 struct CellRecord {
   CellKey key;
-  uint32_t parent = kNone;       // index into Directory::cells; kNone for the root
-  uint32_t firstChild = kNone;   // children lie one after the other in Morton order
-  uint32_t childCount = 0;       // 0: a leaf
-  GridBox content;               // tight around the surface inside the cube
-  uint64_t triangles = 0;        // full-resolution triangles inside the cube (clipped pieces)
-  uint32_t geometryPage = kNone; // leaves: the page of the full triangles
-  uint32_t firstViewPage = kNone;// pages of views, by rising group; kNone when no views were kept
+  uint32_t parent = kNone;         // index into Directory::cells; kNone for the root
+  uint32_t firstChild = kNone;     // children lie one after the other in Morton order
+  uint32_t childCount = 0;         // 0: a leaf
+  GridBox content;                 // tight around the surface inside the cube
+  uint64_t triangles = 0;          // full-resolution triangles inside the cube (clipped pieces)
+  uint32_t geometryPage = kNone;   // leaves: the page of the full triangles
+  uint32_t firstViewPage = kNone;  // pages of views, by rising group; kNone when no views were kept
   uint32_t viewPageCount = 0;
 };
 
 // How the input was taken and what the build made of it; contract of `build --json` and `info --json`.
 struct BuildReport {
-  uint64_t inputTriangles = 0;   // accepted, after triangulation
+  uint64_t inputTriangles = 0;  // accepted, after triangulation
   uint64_t inputVertices = 0;
-  std::map<std::string, uint64_t> skipped;       // triangles by reason
+  std::map<std::string, uint64_t> skipped;  // triangles by reason
   uint64_t viewsBaked = 0;
   uint64_t viewsKept = 0;
   std::map<std::string, uint64_t> viewsLeftOut;  // by reason
-  uint64_t impostorBytes = 0;    // stored
-  uint64_t impostorRawBytes = 0; // cropped, before coding
-  uint64_t geometryBytes = 0;    // stored
+  uint64_t impostorBytes = 0;                    // stored
+  uint64_t impostorRawBytes = 0;                 // cropped, before coding
+  uint64_t geometryBytes = 0;                    // stored
   bool operator==(const BuildReport&) const = default;
 };
 
 // Cells lie in order of level, then Morton code: the root first, children after parents.
 struct Directory {
   Model model;
-  std::string sourceName;        // file name of the mesh, without its path
-  uint64_t sourceHash = 0;       // XXH3-64 of the mesh file's bytes
+  std::string sourceName;   // file name of the mesh, without its path
+  uint64_t sourceHash = 0;  // XXH3-64 of the mesh file's bytes
   BuildReport report;
   std::vector<CellRecord> cells;
-  std::vector<PageRecord> pages; // by rising offset
+  std::vector<PageRecord> pages;  // by rising offset
 };
 
 }  // namespace farcell

@@ -11,6 +11,7 @@
 namespace farcell {
 namespace {
 
+constexpr uint64_t kMaxWordsRatio = 12;  // a triangle of 12 bytes may be one byte before deflate
 constexpr int kMinImageSize = 16;
 constexpr int kMaxImageSize = 1024;
 
@@ -65,8 +66,8 @@ class Checker {
     const GridBox& bounds = directory_.model.bounds;
     if (!finite(grid.origin) || !std::isfinite(grid.side) || !(grid.side > 0) || !finite(grid.origin + grid.side) ||
         !(std::ldexp(grid.side, -kMaxGridBits) > 0))
-      return wrongModel("a finite grid with a side above 0",
-                        fmt::format("origin {}, {}, {}, side {}", grid.origin.x, grid.origin.y, grid.origin.z, grid.side));
+      return wrongModel("a finite grid with a side above 0", fmt::format("origin {}, {}, {}, side {}", grid.origin.x,
+                                                                         grid.origin.y, grid.origin.z, grid.side));
     if (grid.bits < kMinGridBits || grid.bits > kMaxGridBits)
       return wrongModel(fmt::format("a grid of {} to {} bits", kMinGridBits, kMaxGridBits),
                         fmt::format("{}", grid.bits));
@@ -77,7 +78,8 @@ class Checker {
 
   Result<> settings() const {
     const BuildSettings& s = directory_.model.settings;
-    if (const auto views = Viewpoints::create(s.views); !views) return wrongModel("possible settings", views.error().message);
+    if (const auto views = Viewpoints::create(s.views); !views)
+      return wrongModel("possible settings", views.error().message);
     if (s.imageSize < kMinImageSize || s.imageSize > kMaxImageSize || !std::has_single_bit(unsigned(s.imageSize)))
       return wrongModel("an image size of 16 to 1024, a power of two", fmt::format("{}", s.imageSize));
     if (s.samples != 1 && s.samples != 4 && s.samples != 16 && s.samples != 64)
@@ -173,9 +175,9 @@ class Checker {
       if (page.offsetBytes != offset || page.storedBytes == 0 || page.storedBytes > directoryOffset_ - offset)
         return wrongPage(i, fmt::format("1 to {} bytes at offset {}", directoryOffset_ - offset, offset),
                          fmt::format("{} at {}", page.storedBytes, page.offsetBytes));
-      if (page.decodedBytes > page.storedBytes * kMaxZlibRatio)
-        return wrongPage(i, fmt::format("at most {} decoded bytes", page.storedBytes * kMaxZlibRatio),
-                         fmt::format("{}", page.decodedBytes));
+      const uint64_t mostDecoded = page.storedBytes * kMaxZlibRatio * kMaxWordsRatio;
+      if (page.decodedBytes > mostDecoded)
+        return wrongPage(i, fmt::format("at most {} decoded bytes", mostDecoded), fmt::format("{}", page.decodedBytes));
       FARCELL_TRY(owner(i, groupCount));
       offset = alignedUp(offset + page.storedBytes);
     }
@@ -198,8 +200,9 @@ class Checker {
     if (page.kind != PageKind::views)
       return wrongPage(i, "kind 1 or 2", fmt::format("{}", static_cast<uint32_t>(page.kind)));
     if (i < cell.firstViewPage || i - cell.firstViewPage >= cell.viewPageCount)
-      return wrongPage(i, fmt::format("{} pages of views of cell {} from {}", cell.viewPageCount, page.cell,
-                                      cell.firstViewPage), fmt::format("page {}", i));
+      return wrongPage(
+          i, fmt::format("{} pages of views of cell {} from {}", cell.viewPageCount, page.cell, cell.firstViewPage),
+          fmt::format("page {}", i));
     const bool rising = i == cell.firstViewPage || directory_.pages[i - 1].group < page.group;
     if (page.group >= groupCount || !rising)
       return wrongPage(i, fmt::format("a rising group below {}", groupCount), fmt::format("{}", page.group));
@@ -224,7 +227,8 @@ class Checker {
 
 PageBytes pageBytes(std::span<const PageRecord> pages) {
   PageBytes bytes;
-  for (const PageRecord& page : pages) (page.kind == PageKind::views ? bytes.views : bytes.geometry) += page.storedBytes;
+  for (const PageRecord& page : pages)
+    (page.kind == PageKind::views ? bytes.views : bytes.geometry) += page.storedBytes;
   return bytes;
 }
 

@@ -2,6 +2,7 @@
 #include <meshoptimizer.h>
 
 #include "cache/base/check.h"
+#include "cache/pack/connectivity.h"
 #include "cache/pack/pages.h"
 
 namespace farcell {
@@ -27,6 +28,7 @@ GeometryPage optimisedOrder(const GeometryPage& page) {
   GeometryPage result;
   result.indices.resize(page.indices.size());
   meshopt_optimizeVertexCache(result.indices.data(), page.indices.data(), page.indices.size(), page.positions.size());
+  rotateForCoding(result.indices);
   std::vector<uint32_t> remap(page.positions.size());
   const size_t used = meshopt_optimizeVertexFetchRemap(remap.data(), result.indices.data(), result.indices.size(),
                                                        page.positions.size());

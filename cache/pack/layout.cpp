@@ -51,7 +51,8 @@ Result<> checkHeader(std::span<const std::byte> bytes, const std::string& path) 
   const uint64_t reservedOffset = in.position();
   for (const std::byte reserved : in.take(in.remaining() - kChecksumBytes))
     if (reserved != std::byte{0}) return corrupt(path, reservedOffset, "reserved bytes of 0", "others");
-  return checkSum(bytes.first(in.position()), in.u64(), 0, path);
+  const std::span<const std::byte> summed = bytes.first(in.position());
+  return checkSum(summed, in.u64(), 0, path);
 }
 
 std::vector<std::byte> encodeFooter(const Footer& footer) {

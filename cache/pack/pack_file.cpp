@@ -4,6 +4,7 @@
 
 #include "cache/base/check.h"
 #include "cache/base/hash.h"
+#include "cache/base/interrupt.h"
 #include "cache/pack/directory_check.h"
 #include "cache/pack/directory_codec.h"
 #include "cache/pack/layout.h"
@@ -44,8 +45,8 @@ Result<Directory> readDirectory(const InputFile& file) {
 
 // A page's own message gets the file and the page in front.
 tl::unexpected<Error> inPage(const PackFile& pack, uint32_t page, const std::string& message) {
-  return fail(ErrorKind::corrupt, "{}: offset {}: page {}: {}", pack.path(),
-              pack.directory().pages[page].offsetBytes, page, message);
+  return fail(ErrorKind::corrupt, "{}: offset {}: page {}: {}", pack.path(), pack.directory().pages[page].offsetBytes,
+              page, message);
 }
 
 Result<> checkGeometry(const GeometryPage& page, const CellRecord& cell, const Model& model) {
@@ -146,6 +147,10 @@ std::vector<Error> PackFile::verify(size_t maxFindings, const std::function<void
     else
       note(readViews(page));
     if (progress) progress(page + 1);
+    if (const Result<> going = checkInterrupt(); !going) {
+      findings.push_back(going.error());
+      break;
+    }
   }
   return findings;
 }

@@ -60,7 +60,8 @@ class PackFile {
   Result<ViewPage> readViews(uint32_t page) const;
 
   // Every byte of the file: header, footer and directory once more, all checksums, all pages decoded, padding zero,
-  // cells and pages consistent with content. Returns one Error per finding, at most maxFindings. `progress` may be empty.
+  // cells and pages consistent with content. Returns one Error per finding, at most maxFindings. `progress` may be
+  // empty. An interrupt (base/interrupt.h) ends it with an Error of kind cancelled.
   std::vector<Error> verify(size_t maxFindings, const std::function<void(uint64_t pagesDone)>& progress) const;
 
  private:

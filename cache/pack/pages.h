@@ -16,9 +16,9 @@ namespace farcell {
 // each in [0, 2^(bits-level)]; vertices are shared wherever position, colour and normal agree.
 struct GeometryPage {
   std::vector<glm::uvec3> positions;
-  std::vector<uint32_t> colours;   // 0x00BBGGRR per vertex; empty: the model has none
-  std::vector<uint32_t> normals;   // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
-  std::vector<uint32_t> indices;   // three a triangle
+  std::vector<uint32_t> colours;  // 0x00BBGGRR per vertex; empty: the model has none
+  std::vector<uint32_t> normals;  // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
+  std::vector<uint32_t> indices;  // three a triangle
   bool operator==(const GeometryPage&) const = default;
 };
 
@@ -55,11 +55,11 @@ uint32_t decodedSizeBytes(const ViewPage& page);
 
 // What a decoder may believe: nothing larger is allocated, whatever the bytes claim.
 struct GeometryLimits {
-  uint32_t maxCoordinate;   // 2^(bits-level)
+  uint32_t maxCoordinate;  // 2^(bits-level)
   uint64_t maxDecodedBytes;
 };
 struct ViewLimits {
-  uint32_t viewCount;       // size of the viewpoint set
+  uint32_t viewCount;  // size of the viewpoint set
   uint32_t imageSize;
   uint64_t maxDecodedBytes;
 };

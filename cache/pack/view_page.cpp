@@ -1,5 +1,7 @@
 // The coding of a page of views; FORMAT.md, "Page of views".
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "cache/base/check.h"
 #include "cache/pack/bytes.h"
@@ -18,7 +20,7 @@ constexpr uint32_t kMaxImageSize = 65535;  // as far as the header's fields reac
 struct ViewHeader {
   ViewImage image;  // without its planes
   uint64_t headerOffset = 0;
-  uint32_t filters = 0;
+  ViewCoding coding = 0;
   uint32_t streamEnd = 0;
   uint64_t texels() const { return uint64_t{image.width} * image.height; }
 };
@@ -29,7 +31,7 @@ uint32_t planeCountOf(const ViewPage& page) {
   return kPlanesWithoutNormals;
 }
 
-void writeHeader(ByteWriter& out, const ViewImage& view, uint32_t filters, uint64_t streamEnd) {
+void writeHeader(ByteWriter& out, const ViewImage& view, ViewCoding coding, uint64_t streamEnd) {
   FARCELL_CHECK((view.width == 0) == (view.height == 0));
   FARCELL_CHECK(std::max(view.x0 + view.width, view.y0 + view.height) <= kMaxImageSize);
   FARCELL_CHECK(std::isfinite(view.depthMin) && std::isfinite(view.depthMax) && view.depthMin <= view.depthMax);
@@ -38,7 +40,7 @@ void writeHeader(ByteWriter& out, const ViewImage& view, uint32_t filters, uint6
   for (const uint32_t value : {view.x0, view.y0, view.width, view.height}) out.u16(static_cast<uint16_t>(value));
   out.f32(view.depthMin);
   out.f32(view.depthMax);
-  out.u32(filters);
+  out.u32(coding);
   out.u32(static_cast<uint32_t>(streamEnd));
 }
 
@@ -50,19 +52,13 @@ ViewHeader readHeader(ByteReader& in) {
   for (uint32_t* value : {&image.x0, &image.y0, &image.width, &image.height}) *value = in.u16();
   image.depthMin = in.f32();
   image.depthMax = in.f32();
-  header.filters = in.u32();
+  header.coding = in.u32();
   header.streamEnd = in.u32();
   return header;
 }
 
 tl::unexpected<Error> wrong(uint64_t offset, const std::string& expected, const std::string& found) {
   return fail(ErrorKind::corrupt, "byte {} of the page: expected {}, found {}", offset, expected, found);
-}
-
-bool filtersValid(uint32_t filters, uint32_t planeCount) {
-  for (uint32_t i = 0; i < planeCount; ++i, filters >>= kBitsPerFilter)
-    if ((filters & ((1u << kBitsPerFilter) - 1)) >= kPlaneFilterCount) return false;
-  return filters == 0;
 }
 
 Result<> checkHeader(const ViewHeader& header, uint32_t planeCount, const ViewLimits& limits) {
@@ -76,9 +72,8 @@ Result<> checkHeader(const ViewHeader& header, uint32_t planeCount, const ViewLi
                  fmt::format("{} x {} at {}, {}", image.width, image.height, image.x0, image.y0));
   if (!std::isfinite(image.depthMin) || !std::isfinite(image.depthMax) || image.depthMin > image.depthMax)
     return wrong(at + 12, "a finite, rising depth range", fmt::format("{}, {}", image.depthMin, image.depthMax));
-  if (!filtersValid(header.filters, image.width == 0 ? 0 : planeCount))
-    return wrong(at + 20, fmt::format("{} filters below {}", planeCount, kPlaneFilterCount),
-                 fmt::format("{:#x}", header.filters));
+  if (image.width == 0 ? header.coding != 0 : !codingValid(header.coding, planeCount))
+    return wrong(at + 20, fmt::format("a coding of {} planes", planeCount), fmt::format("{:#x}", header.coding));
   return {};
 }
 
@@ -107,10 +102,10 @@ Result<std::vector<ViewHeader>> readHeaders(std::span<const std::byte> bytes, co
     if (header.streamEnd < streamBegin || header.streamEnd > bytes.size() ||
         (rawBytes == 0) != (header.streamEnd == streamBegin) ||
         rawBytes > (header.streamEnd - streamBegin) * kMaxZlibRatio)
-      return wrong(header.headerOffset + 24,
-                   fmt::format("the end of a stream of {} bytes from {} in a page of {}", rawBytes, streamBegin,
-                               bytes.size()),
-                   fmt::format("{}", header.streamEnd));
+      return wrong(
+          header.headerOffset + 24,
+          fmt::format("the end of a stream of {} bytes from {} in a page of {}", rawBytes, streamBegin, bytes.size()),
+          fmt::format("{}", header.streamEnd));
     streamBegin = header.streamEnd;
     headers.push_back(header);
   }
@@ -119,6 +114,40 @@ Result<std::vector<ViewHeader>> readHeaders(std::span<const std::byte> bytes, co
   if (streamBegin != bytes.size())
     return wrong(streamBegin, "the end of the page", fmt::format("{} more bytes", bytes.size() - streamBegin));
   return headers;
+}
+
+struct DeflatedView {
+  std::vector<std::byte> stream;
+  ViewCoding coding = 0;
+};
+
+// Whether half of the covered texels have a colour met before: then texels beat planes or lose by a percent, which is
+// not worth deflating twice.
+bool mostlyRepeats(const ViewImage& view) {
+  constexpr uint32_t kSlotBits = 12;
+  std::array<uint32_t, 1u << kSlotBits> seen{};
+  size_t covered = 0;
+  size_t repeated = 0;
+  for (size_t i = 0; i < view.rgba.size(); i += 4) {
+    uint32_t colour = 0;
+    for (size_t k = 0; k < 4; ++k) colour |= uint32_t{view.rgba[i + k]} << (8 * k);
+    if (colour == 0) continue;
+    uint32_t& slot = seen[colour * 0x9e3779b1u >> (32 - kSlotBits)];
+    ++covered;
+    if (std::exchange(slot, colour) == colour) ++repeated;
+  }
+  return 2 * repeated >= covered;
+}
+
+DeflatedView smallerArrangement(const ViewImage& view, uint32_t planeCount) {
+  DeflatedView best;
+  for (const Arrangement arrangement : {Arrangement::texels, Arrangement::planes}) {
+    if (arrangement == Arrangement::planes && mostlyRepeats(view)) break;
+    const ArrangedView arranged = arrangedFromView(view, planeCount, arrangement);
+    std::vector<std::byte> stream = zlibCompress(arranged.bytes, kViewZlibLevel);
+    if (best.stream.empty() || stream.size() < best.stream.size()) best = {std::move(stream), arranged.coding};
+  }
+  return best;
 }
 
 }  // namespace
@@ -133,13 +162,13 @@ std::vector<std::byte> encodeViewPage(const ViewPage& page) {
   for (size_t i = 0; i < page.views.size(); ++i) {
     const ViewImage& view = page.views[i];
     FARCELL_CHECK(i == 0 || page.views[i - 1].view < view.view);
-    uint32_t filters = 0;
+    ViewCoding coding = 0;
     if (view.width > 0) {
-      const FilteredView filtered = filteredFromView(view, planeCount);
-      filters = filtered.filters;
-      streams.append(zlibCompress(filtered.planes, kViewZlibLevel));
+      const DeflatedView deflated = smallerArrangement(view, planeCount);
+      coding = deflated.coding;
+      streams.append(deflated.stream);
     }
-    writeHeader(headers, view, filters, streamsBegin + streams.bytes.size());
+    writeHeader(headers, view, coding, streamsBegin + streams.bytes.size());
   }
   headers.append(streams.bytes);
   return std::move(headers.bytes);
@@ -158,7 +187,7 @@ Result<ViewPage> decodeViewPage(std::span<const std::byte> bytes, const ViewLimi
       const auto stream = bytes.subspan(streamBegin, header.streamEnd - streamBegin);
       if (const auto inflated = zlibDecompress(stream, planes); !inflated)
         return fail(ErrorKind::corrupt, "byte {} of the page: {}", streamBegin, inflated.error().message);
-      viewFromFiltered(planes, planeCount, header.filters, view);
+      viewFromArranged(planes, planeCount, header.coding, view);
     }
     streamBegin = header.streamEnd;
   }

@@ -9,6 +9,10 @@
 namespace farcell {
 namespace {
 
+constexpr uint32_t kBitsPerFilter = 4;
+constexpr uint32_t kFilterMask = (1u << kBitsPerFilter) - 1;
+constexpr uint32_t kArrangementShift = 28;
+
 struct Size {
   size_t width;
   size_t height;
@@ -55,10 +59,14 @@ void undoAverage(uint8_t* plane, Size size) {
 
 void undoFilter(PlaneFilter filter, uint8_t* plane, Size size) {
   switch (filter) {
-    case PlaneFilter::none: return;
-    case PlaneFilter::up: return undoUp(plane, size);
-    case PlaneFilter::left: return undoLeft(plane, size);
-    case PlaneFilter::average: return undoAverage(plane, size);
+    case PlaneFilter::none:
+      return;
+    case PlaneFilter::up:
+      return undoUp(plane, size);
+    case PlaneFilter::left:
+      return undoLeft(plane, size);
+    case PlaneFilter::average:
+      return undoAverage(plane, size);
   }
 }
 
@@ -85,62 +93,99 @@ PlaneFilter filterPlane(std::span<const uint8_t> plane, Size size, uint8_t* out)
   return best;
 }
 
-// Plane `index` of the view, before filtering.
-void extractPlane(const ViewImage& view, uint32_t index, std::span<uint8_t> plane) {
-  const uint8_t* rgba = view.rgba.data();
-  for (size_t i = 0; i < plane.size(); ++i, rgba += 4) {
-    switch (index) {
-      case 0: plane[i] = rgba[1]; break;
-      case 1: plane[i] = static_cast<uint8_t>(rgba[0] - rgba[1]); break;
-      case 2: plane[i] = static_cast<uint8_t>(rgba[2] - rgba[1]); break;
-      case 3: plane[i] = rgba[3]; break;
-      case 4: plane[i] = view.depth[i]; break;
-      default: plane[i] = view.normal[2 * i + (index - kPlanesWithoutNormals)]; break;
-    }
+// The value of colour plane `plane` at a texel, and the texel back from its four values.
+uint8_t colourValue(const uint8_t* rgba, uint32_t plane) {
+  switch (plane) {
+    case 0:
+      return rgba[1];
+    case 1:
+      return static_cast<uint8_t>(rgba[0] - rgba[1]);
+    case 2:
+      return static_cast<uint8_t>(rgba[2] - rgba[1]);
+    default:
+      return rgba[3];
   }
 }
 
+void setColour(uint8_t* rgba, uint8_t green, uint8_t red, uint8_t blue, uint8_t alpha) {
+  rgba[0] = static_cast<uint8_t>(red + green);
+  rgba[1] = green;
+  rgba[2] = static_cast<uint8_t>(blue + green);
+  rgba[3] = alpha;
+}
+
+// Plane `index` of the view, before filtering.
+void extractPlane(const ViewImage& view, uint32_t index, std::span<uint8_t> plane) {
+  for (size_t i = 0; i < plane.size(); ++i) {
+    if (index < kColourPlanes)
+      plane[i] = colourValue(view.rgba.data() + 4 * i, index);
+    else if (index < kPlanesWithoutNormals)
+      plane[i] = view.depth[i];
+    else
+      plane[i] = view.normal[2 * i + (index - kPlanesWithoutNormals)];
+  }
+}
+
+Arrangement arrangementOf(ViewCoding coding) { return static_cast<Arrangement>(coding >> kArrangementShift); }
+
+uint32_t firstFilteredPlane(Arrangement arrangement) { return arrangement == Arrangement::texels ? kColourPlanes : 0; }
+
 }  // namespace
 
-FilteredView filteredFromView(const ViewImage& view, uint32_t planeCount) {
+bool codingValid(ViewCoding coding, uint32_t planeCount) {
+  if (coding >> kArrangementShift > static_cast<uint32_t>(Arrangement::planes)) return false;
+  const uint32_t first = firstFilteredPlane(arrangementOf(coding));
+  for (uint32_t plane = 0; plane < kArrangementShift / kBitsPerFilter; ++plane) {
+    const uint32_t filter = coding >> (kBitsPerFilter * plane) & kFilterMask;
+    if (filter >= (plane >= first && plane < planeCount ? kPlaneFilterCount : 1)) return false;
+  }
+  return true;
+}
+
+ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement arrangement) {
   const Size size{view.width, view.height};
   FARCELL_CHECK_EQ(view.rgba.size(), 4 * size.texels());
   FARCELL_CHECK_EQ(view.depth.size(), size.texels());
   FARCELL_CHECK_EQ(view.normal.size(), planeCount == kPlanesWithNormals ? 2 * size.texels() : 0);
-  FilteredView result;
-  result.planes.resize(planeCount * size.texels());
+  ArrangedView result;
+  result.bytes.resize(planeCount * size.texels());
+  result.coding = static_cast<uint32_t>(arrangement) << kArrangementShift;
+  auto* out = reinterpret_cast<uint8_t*>(result.bytes.data());
+  if (arrangement == Arrangement::texels)
+    for (size_t i = 0; i < kColourPlanes * size.texels(); ++i)
+      out[i] = colourValue(view.rgba.data() + i / 4 * 4, static_cast<uint32_t>(i % 4));
   std::vector<uint8_t> plane(size.texels());
-  for (uint32_t i = 0; i < planeCount; ++i) {
+  for (uint32_t i = firstFilteredPlane(arrangement); i < planeCount; ++i) {
     extractPlane(view, i, plane);
-    auto* out = reinterpret_cast<uint8_t*>(result.planes.data() + i * size.texels());
-    result.filters |= static_cast<uint32_t>(filterPlane(plane, size, out)) << (kBitsPerFilter * i);
+    const PlaneFilter filter = filterPlane(plane, size, out + i * size.texels());
+    result.coding |= static_cast<uint32_t>(filter) << (kBitsPerFilter * i);
   }
   return result;
 }
 
-void viewFromFiltered(std::span<const std::byte> planes, uint32_t planeCount, uint32_t filters, ViewImage& view) {
+void viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount, ViewCoding coding, ViewImage& view) {
   const Size size{view.width, view.height};
-  FARCELL_CHECK_EQ(planes.size(), planeCount * size.texels());
-  std::vector<uint8_t> plain(planes.size());
-  std::transform(planes.begin(), planes.end(), plain.begin(), [](std::byte b) { return std::to_integer<uint8_t>(b); });
-  for (uint32_t i = 0; i < planeCount; ++i) {
-    const auto filter = static_cast<PlaneFilter>(filters >> (kBitsPerFilter * i) & ((1u << kBitsPerFilter) - 1));
-    undoFilter(filter, plain.data() + i * size.texels(), size);
+  const size_t texels = size.texels();
+  FARCELL_CHECK_EQ(bytes.size(), planeCount * texels);
+  const auto* begin = reinterpret_cast<const uint8_t*>(bytes.data());
+  std::vector<uint8_t> plain(begin, begin + bytes.size());
+  const Arrangement arrangement = arrangementOf(coding);
+  for (uint32_t i = firstFilteredPlane(arrangement); i < planeCount; ++i)
+    undoFilter(static_cast<PlaneFilter>(coding >> (kBitsPerFilter * i) & kFilterMask), plain.data() + i * texels, size);
+
+  view.rgba.resize(4 * texels);
+  // Steps from one channel of a texel to the next, and from one texel to the next.
+  const size_t channelStep = arrangement == Arrangement::texels ? 1 : texels;
+  const size_t texelStep = arrangement == Arrangement::texels ? 4 : 1;
+  for (size_t i = 0; i < texels; ++i) {
+    const uint8_t* in = plain.data() + i * texelStep;
+    setColour(view.rgba.data() + 4 * i, in[0], in[channelStep], in[2 * channelStep], in[3 * channelStep]);
   }
-  const auto plane = [&](size_t index) { return plain.data() + index * size.texels(); };
-  view.rgba.resize(4 * size.texels());
-  for (size_t i = 0; i < size.texels(); ++i) {
-    const uint8_t green = plane(0)[i];
-    view.rgba[4 * i + 0] = static_cast<uint8_t>(plane(1)[i] + green);
-    view.rgba[4 * i + 1] = green;
-    view.rgba[4 * i + 2] = static_cast<uint8_t>(plane(2)[i] + green);
-    view.rgba[4 * i + 3] = plane(3)[i];
-  }
-  view.depth.assign(plane(4), plane(4) + size.texels());
-  view.normal.clear();
-  if (planeCount == kPlanesWithoutNormals) return;
-  view.normal.resize(2 * size.texels());
-  for (size_t i = 0; i < 2 * size.texels(); ++i) view.normal[i] = plane(5 + i % 2)[i / 2];
+  const auto depth = plain.begin() + static_cast<ptrdiff_t>(kColourPlanes * texels);
+  view.depth.assign(depth, depth + static_cast<ptrdiff_t>(texels));
+  view.normal.assign((planeCount - kPlanesWithoutNormals) * texels, 0);
+  const uint8_t* normal = plain.data() + kPlanesWithoutNormals * texels;
+  for (size_t i = 0; i < view.normal.size(); ++i) view.normal[i] = normal[i % 2 * texels + i / 2];
 }
 
 }  // namespace farcell

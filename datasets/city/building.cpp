@@ -2,26 +2,42 @@
 
 #include <cmath>
 
+#include "datasets/city/palette.h"
+
 namespace farcell::city {
 namespace {
 
-template <size_t kCount>
-Colour pick(const std::array<Colour, kCount>& palette, Random& random) {
-  return scaled(palette[static_cast<size_t>(random.below(kCount))], random.range(0.92, 1.06));
-}
-
-constexpr std::array<Colour, 12> kPlaster = {{{226, 208, 172}, {214, 186, 142}, {232, 222, 202}, {204, 170, 136}, {190, 196, 186}, {226, 190, 150},
-                                              {198, 128, 104}, {176, 104, 84}, {222, 214, 190}, {170, 184, 196}, {238, 230, 216}, {206, 176, 98}}};
-constexpr std::array<Colour, 5> kConcrete = {{{196, 196, 192}, {176, 180, 184}, {210, 204, 194}, {150, 158, 168}, {188, 170, 152}}};
-constexpr std::array<Colour, 6> kTiles = {{{168, 84, 60}, {150, 70, 52}, {182, 102, 70}, {120, 66, 54}, {96, 94, 100}, {134, 82, 62}}};
-constexpr std::array<Colour, 8> kAccents = {{{96, 58, 40}, {44, 84, 66}, {122, 40, 38}, {46, 68, 108}, {172, 122, 46}, {88, 92, 96}, {140, 52, 72}, {60, 110, 120}}};
+constexpr std::array<Colour, 12> kPlaster = {{{226, 208, 172},
+                                              {214, 186, 142},
+                                              {232, 222, 202},
+                                              {204, 170, 136},
+                                              {190, 196, 186},
+                                              {226, 190, 150},
+                                              {198, 128, 104},
+                                              {176, 104, 84},
+                                              {222, 214, 190},
+                                              {170, 184, 196},
+                                              {238, 230, 216},
+                                              {206, 176, 98}}};
+constexpr std::array<Colour, 5> kConcrete = {
+    {{196, 196, 192}, {176, 180, 184}, {210, 204, 194}, {150, 158, 168}, {188, 170, 152}}};
+constexpr std::array<Colour, 6> kTiles = {
+    {{156, 88, 66}, {140, 76, 60}, {170, 106, 80}, {112, 70, 60}, {96, 94, 100}, {128, 86, 70}}};
+constexpr std::array<Colour, 8> kAccents = {{{96, 58, 40},
+                                             {44, 84, 66},
+                                             {122, 40, 38},
+                                             {46, 68, 108},
+                                             {172, 122, 46},
+                                             {88, 92, 96},
+                                             {140, 52, 72},
+                                             {60, 110, 120}}};
 
 FacadeStyle townStyle(Random& random) {
   FacadeStyle style;
-  style.wall = pick(kPlaster, random);
+  style.wall = pickColour(kPlaster, 0.92, 1.06, random);
   style.trim = random.chance(0.6) ? Colour{236, 230, 218} : scaled(style.wall, 0.82);
   style.frame = random.chance(0.7) ? Colour{244, 242, 236} : Colour{104, 72, 50};
-  style.accent = pick(kAccents, random);
+  style.accent = pickColour(kAccents, 0.92, 1.06, random);
   style.groundM = random.range(3.6, 4.4);
   style.floorM = random.range(2.9, 3.5);
   style.bayM = random.range(2.2, 3.0);
@@ -53,7 +69,9 @@ void addBody(Mesh& mesh, const Lot& lot, int floors, const FacadeStyle& style, R
   }
 }
 
-Frame eaves(const Lot& lot, const FacadeStyle& style, int floors) { return lot.frame.moved(0, heightM(style, floors), 0); }
+Frame eaves(const Lot& lot, const FacadeStyle& style, int floors) {
+  return lot.frame.moved(0, heightM(style, floors), 0);
+}
 
 // The church's tower: a shaft, a belfry with louvred windows, a spire.
 void addSpire(Mesh& mesh, const Frame& frame, double edgeM, double topM, const FacadeStyle& style, Random& random) {
@@ -61,7 +79,8 @@ void addSpire(Mesh& mesh, const Frame& frame, double edgeM, double topM, const F
   for (int i = 0; i < 4; ++i) {
     addPlainWall(mesh, side, edgeM, topM - 5, -2, style.wall);
     const Frame belfry = side.moved(0, topM - 5, 0);
-    addWindow(mesh, belfry, glm::dvec3(edgeM, 5, 0), glm::dvec3(edgeM * 0.3, 0.8, 0), glm::dvec3(edgeM * 0.7, 4, 0), style, random);
+    addWindow(mesh, belfry, glm::dvec3(edgeM, 5, 0), glm::dvec3(edgeM * 0.3, 0.8, 0), glm::dvec3(edgeM * 0.7, 4, 0),
+              style, random);
     mesh.box(side, glm::dvec3(-0.2, topM - 0.3, -0.3), glm::dvec3(edgeM + 0.2, topM + 0.1, 0.25), style.trim);
     side = side.turned(edgeM);
   }
@@ -88,7 +107,7 @@ void addTownHouse(Mesh& mesh, const Lot& lot, Random& random) {
   roof.depthM = lot.depthM;
   roof.slope = random.range(0.6, 0.95);
   roof.endReachM = 0;
-  roof.tiles = pick(kTiles, random);
+  roof.tiles = pickColour(kTiles, 0.92, 1.06, random);
   roof.hasDormers = random.chance(0.6);
   addBody(mesh, lot, floors, style, random);
   addRoof(mesh, eaves(lot, style, floors), roof, style, random);
@@ -104,12 +123,14 @@ void addVilla(Mesh& mesh, const Lot& lot, Random& random) {
   const int floors = random.between(1, 3);
   RoofShape roof;
   const double kind = random.unit();
-  roof.kind = kind < 0.15 ? RoofKind::flat : kind < 0.6 || lot.widthM < lot.depthM + 0.5 ? RoofKind::gabled : RoofKind::hipped;
+  roof.kind = kind < 0.15                                   ? RoofKind::flat
+              : kind < 0.6 || lot.widthM < lot.depthM + 0.5 ? RoofKind::gabled
+                                                            : RoofKind::hipped;
   roof.widthM = lot.widthM;
   roof.depthM = lot.depthM;
   roof.slope = random.range(0.5, 0.95);
   roof.endReachM = 0.4;
-  roof.tiles = pick(kTiles, random);
+  roof.tiles = pickColour(kTiles, 0.92, 1.06, random);
   roof.hasDormers = floors < 3 && random.chance(0.4);
   addBody(mesh, lot, floors, style, random);
   addRoof(mesh, eaves(lot, style, floors), roof, style, random);
@@ -117,10 +138,10 @@ void addVilla(Mesh& mesh, const Lot& lot, Random& random) {
 
 void addTower(Mesh& mesh, const Lot& lot, Random& random) {
   FacadeStyle style;
-  style.wall = pick(kConcrete, random);
+  style.wall = pickColour(kConcrete, 0.92, 1.06, random);
   style.trim = scaled(style.wall, random.range(0.75, 1.15));
   style.frame = random.chance(0.5) ? Colour{72, 76, 80} : Colour{228, 230, 230};
-  style.accent = pick(kAccents, random);
+  style.accent = pickColour(kAccents, 0.92, 1.06, random);
   style.groundM = 4.5;
   style.floorM = random.range(3.0, 3.5);
   style.bayM = random.range(3.0, 3.8);
@@ -130,7 +151,8 @@ void addTower(Mesh& mesh, const Lot& lot, Random& random) {
   style.courses = random.chance(0.5);
   style.balconyShare = random.chance(0.3) ? 0.3 : 0;
   style.hasShops = true;
-  const int floors = 8 + static_cast<int>(18 * random.unit() * random.unit());
+  const double share = random.unit();
+  const int floors = 8 + static_cast<int>(18 * share * random.unit());
   addBody(mesh, lot, floors, style, random);
   RoofShape roof;
   roof.kind = RoofKind::flat;
@@ -141,7 +163,7 @@ void addTower(Mesh& mesh, const Lot& lot, Random& random) {
 
 void addChurch(Mesh& mesh, const Lot& lot, Random& random) {
   FacadeStyle style = townStyle(random);
-  style.wall = pick(kPlaster, random);
+  style.wall = pickColour(kPlaster, 0.92, 1.06, random);
   style.groundM = random.range(8, 10);
   style.bayM = 4;
   style.windowWidthM = 1.5;
@@ -153,11 +175,12 @@ void addChurch(Mesh& mesh, const Lot& lot, Random& random) {
   roof.widthM = lot.widthM;
   roof.depthM = lot.depthM;
   roof.slope = 1.2;
-  roof.tiles = pick(kTiles, random);
+  roof.tiles = pickColour(kTiles, 0.92, 1.06, random);
   addBody(mesh, lot, 1, style, random);
   addRoof(mesh, eaves(lot, style, 1), roof, style, random);
   constexpr double kTowerM = 6;
-  addSpire(mesh, lot.frame.moved(-kTowerM + 0.5, 0, -(lot.depthM - kTowerM) / 2), kTowerM, random.range(22, 30), style, random);
+  addSpire(mesh, lot.frame.moved(-kTowerM + 0.5, 0, -(lot.depthM - kTowerM) / 2), kTowerM, random.range(22, 30), style,
+           random);
 }
 
 }  // namespace farcell::city

@@ -16,9 +16,9 @@ struct Lot {
   std::array<SideKind, 4> sides{};
 };
 
-void addTownHouse(Mesh& mesh, const Lot& lot, Random& random);   // a row's: 3 to 7 floors
-void addVilla(Mesh& mesh, const Lot& lot, Random& random);       // detached: 1 to 3 floors
-void addTower(Mesh& mesh, const Lot& lot, Random& random);       // 8 to 26 floors
+void addTownHouse(Mesh& mesh, const Lot& lot, Random& random);  // a row's: 3 to 7 floors
+void addVilla(Mesh& mesh, const Lot& lot, Random& random);      // detached: 1 to 3 floors
+void addTower(Mesh& mesh, const Lot& lot, Random& random);      // 8 to 26 floors
 void addChurch(Mesh& mesh, const Lot& lot, Random& random);
 
 }  // namespace farcell::city

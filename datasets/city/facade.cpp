@@ -58,19 +58,20 @@ void addPane(Mesh& mesh, const Frame& frame, const Opening& o, const FacadeStyle
   const double front = back + 0.05;
   const Opening inner = shrunk(o, kBarM);
   addRing(mesh, frame, o, inner, front, style.frame);
-  addRectangle(mesh, frame, inner, back, glassColour(random));
+  addRectangle(mesh, frame, o, back, glassColour(random));
   if (!style.crossBars) return;
   const double middle = (o.left + o.right) / 2;
   const double transom = o.bottom + (o.top - o.bottom) * 0.68;
   addRectangle(mesh, frame, {middle - kBarM / 2, inner.bottom, middle + kBarM / 2, inner.top}, front, style.frame);
-  addRectangle(mesh, frame, {inner.left, transom - kBarM / 2, inner.right, transom + kBarM / 2}, front - 0.005, style.frame);
+  addRectangle(mesh, frame, {inner.left, transom - kBarM / 2, inner.right, transom + kBarM / 2}, front - 0.005,
+               style.frame);
 }
 
 void addSurround(Mesh& mesh, const Frame& frame, const Opening& o, const FacadeStyle& style) {
   constexpr double kWidthM = 0.16;
   addRing(mesh, frame, shrunk(o, -kWidthM), o, 0.05, style.trim);
-  mesh.box(frame, glm::dvec3(o.left - 0.25, o.top + kWidthM, -0.02), glm::dvec3(o.right + 0.25, o.top + kWidthM + 0.14, 0.16),
-           style.trim);
+  mesh.box(frame, glm::dvec3(o.left - 0.25, o.top + kWidthM, -0.02),
+           glm::dvec3(o.right + 0.25, o.top + kWidthM + 0.14, 0.16), style.trim);
 }
 
 void addHole(Mesh& mesh, const Frame& frame, const Opening& wall, const Opening& hole, const FacadeStyle& style) {
@@ -82,8 +83,8 @@ void addWindowIn(Mesh& mesh, const Frame& frame, const Opening& wall, const Open
                  Random& random) {
   addHole(mesh, frame, wall, hole, style);
   addPane(mesh, frame, hole, style, random);
-  mesh.box(frame, glm::dvec3(hole.left - 0.08, hole.bottom - 0.08, -0.05), glm::dvec3(hole.right + 0.08, hole.bottom, 0.14),
-           style.trim);
+  mesh.box(frame, glm::dvec3(hole.left - 0.08, hole.bottom - 0.08, -0.05),
+           glm::dvec3(hole.right + 0.08, hole.bottom, 0.14), style.trim);
   if (style.surrounds) addSurround(mesh, frame, hole, style);
 }
 
@@ -99,8 +100,8 @@ void addDoor(Mesh& mesh, const Frame& frame, const Opening& wall, const FacadeSt
              glm::dvec3(middle + panel, hole.bottom + y + 0.75, 0.04 - style.revealM), scaled(style.accent, 1.25));
   mesh.box(frame, glm::dvec3(hole.left - 0.3, wall.bottom - 0.5, -0.1), glm::dvec3(hole.right + 0.3, wall.bottom, 0.55),
            {150, 148, 142});
-  mesh.box(frame, glm::dvec3(hole.left - 0.2, hole.top + 0.1, -0.05), glm::dvec3(hole.right + 0.2, hole.top + 0.22, 0.8),
-           style.trim);
+  mesh.box(frame, glm::dvec3(hole.left - 0.2, hole.top + 0.1, -0.05),
+           glm::dvec3(hole.right + 0.2, hole.top + 0.22, 0.8), style.trim);
 }
 
 void addShop(Mesh& mesh, const Frame& frame, const Opening& wall, const FacadeStyle& style, Random& random) {
@@ -110,9 +111,11 @@ void addShop(Mesh& mesh, const Frame& frame, const Opening& wall, const FacadeSt
   shop.frame = scaled(style.accent, 0.7);
   addPane(mesh, frame, hole, shop, random);
   // The sign, and an awning over the pavement.
-  mesh.box(frame, glm::dvec3(hole.left, hole.top + 0.2, -0.02), glm::dvec3(hole.right, hole.top + 0.75, 0.1), style.accent);
-  const std::array<glm::dvec3, 4> awning = {frame.at(hole.left, hole.top - 0.35, 1.3), frame.at(hole.right, hole.top - 0.35, 1.3),
-                                            frame.at(hole.right, hole.top + 0.12, 0.06), frame.at(hole.left, hole.top + 0.12, 0.06)};
+  mesh.box(frame, glm::dvec3(hole.left, hole.top + 0.2, -0.02), glm::dvec3(hole.right, hole.top + 0.75, 0.1),
+           style.accent);
+  const std::array<glm::dvec3, 4> awning = {
+      frame.at(hole.left, hole.top - 0.35, 1.3), frame.at(hole.right, hole.top - 0.35, 1.3),
+      frame.at(hole.right, hole.top + 0.12, 0.06), frame.at(hole.left, hole.top + 0.12, 0.06)};
   mesh.fan(awning, scaled(style.accent, 1.2));
   mesh.quad(frame.at(hole.left, hole.top - 0.55, 1.3), frame.at(hole.right, hole.top - 0.55, 1.3), awning[1], awning[0],
             scaled(style.accent, 0.9));
@@ -128,7 +131,8 @@ void addBalcony(Mesh& mesh, const Frame& frame, const Opening& span, const Facad
   const double inner = span.right - span.left - 0.1;
   mesh.box(frame, glm::dvec3(span.left, y - 0.16, -0.05), glm::dvec3(span.right, y, kDepthM), style.trim);
   const Colour rail = scaled(style.accent, 0.6);
-  mesh.box(frame, glm::dvec3(span.left, y + kRailM - 0.05, kDepthM - 0.06), glm::dvec3(span.right, y + kRailM, kDepthM), rail);
+  mesh.box(frame, glm::dvec3(span.left, y + kRailM - 0.05, kDepthM - 0.06), glm::dvec3(span.right, y + kRailM, kDepthM),
+           rail);
   for (const double x : {span.left, span.right - 0.05})
     mesh.box(frame, glm::dvec3(x, y + kRailM - 0.05, 0), glm::dvec3(x + 0.05, y + kRailM, kDepthM - 0.06), rail);
   const int bars = static_cast<int>(inner / kBarSpacingM);

@@ -8,12 +8,12 @@ namespace farcell::city {
 
 struct FacadeStyle {
   Colour wall;
-  Colour trim;    // surrounds, sills, cornices
-  Colour frame;   // of windows
-  Colour accent;  // doors, awnings, railings
-  double groundM = 3.8;     // height of the ground floor
-  double floorM = 3.1;      // height of the others
-  double bayM = 2.6;        // wished distance of windows
+  Colour trim;           // surrounds, sills, cornices
+  Colour frame;          // of windows
+  Colour accent;         // doors, awnings, railings
+  double groundM = 3.8;  // height of the ground floor
+  double floorM = 3.1;   // height of the others
+  double bayM = 2.6;     // wished distance of windows
   double windowWidthM = 1.2;
   double windowHeightM = 1.6;
   double revealM = 0.22;

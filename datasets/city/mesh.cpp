@@ -7,7 +7,8 @@
 namespace farcell::city {
 
 uint32_t Mesh::vertex(glm::dvec3 position, Colour colour) {
-  vertices_.push_back({static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z), colour});
+  vertices_.push_back(
+      {static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z), colour});
   return static_cast<uint32_t>(vertices_.size() - 1);
 }
 
@@ -32,7 +33,8 @@ void Mesh::box(const Frame& frame, glm::dvec3 low, glm::dvec3 high, Colour colou
   for (uint32_t i = 0; i < 8; ++i)
     vertex(frame.at(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z), colour);
   // Front, back, right, left, top, bottom.
-  constexpr uint32_t kSides[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7}, {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
+  constexpr uint32_t kSides[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7},
+                                     {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
   for (const auto& side : kSides) {
     triangle(first + side[0], first + side[1], first + side[2]);
     triangle(first + side[0], first + side[2], first + side[3]);

@@ -21,6 +21,8 @@ constexpr uint64_t keyOf(uint64_t seed, int64_t a, int64_t b = 0, int64_t c = 0)
 // The upper 53 bits, in [0, 1).
 constexpr double unitOf(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
+// A sequence. Two draws never stand among the arguments of one call or the operands of one operator: their order, and
+// with it the city, would be the compiler's choice (in a braced list it is left to right).
 class Random {
  public:
   explicit constexpr Random(uint64_t key) : state_(key) {}

@@ -58,8 +58,8 @@ void addUnderside(Mesh& mesh, const Slope& slope, Colour colour) {
 void addGables(Mesh& mesh, const Frame& frame, const RoofShape& shape, double rise, const FacadeStyle& style) {
   const double middle = -shape.depthM / 2;
   mesh.triangle(frame.at(0, 0, -shape.depthM), frame.at(0, 0, 0), frame.at(0, rise, middle), style.wall);
-  mesh.triangle(frame.at(shape.widthM, 0, 0), frame.at(shape.widthM, 0, -shape.depthM), frame.at(shape.widthM, rise, middle),
-                style.wall);
+  mesh.triangle(frame.at(shape.widthM, 0, 0), frame.at(shape.widthM, 0, -shape.depthM),
+                frame.at(shape.widthM, rise, middle), style.wall);
 }
 
 std::vector<Slope> slopesOf(const Frame& frame, const RoofShape& shape, double rise) {
@@ -74,7 +74,8 @@ std::vector<Slope> slopesOf(const Frame& frame, const RoofShape& shape, double r
   const glm::dvec3 backRight = frame.at(shape.widthM + reach, drop, -shape.depthM - kEaveReachM);
   const glm::dvec3 ridgeLeft = frame.at(ridgeStart, rise, middle);
   const glm::dvec3 ridgeRight = frame.at(shape.widthM - ridgeStart, rise, middle);
-  std::vector<Slope> slopes = {{frontLeft, frontRight, ridgeRight, ridgeLeft}, {backRight, backLeft, ridgeLeft, ridgeRight}};
+  std::vector<Slope> slopes = {{frontLeft, frontRight, ridgeRight, ridgeLeft},
+                               {backRight, backLeft, ridgeLeft, ridgeRight}};
   if (hipped) {
     slopes.push_back({frontRight, backRight, ridgeRight, ridgeRight});
     slopes.push_back({backLeft, frontLeft, ridgeLeft, ridgeLeft});
@@ -89,8 +90,8 @@ void addChimney(Mesh& mesh, const Frame& frame, const RoofShape& shape, double r
   const double top = rise + random.range(0.6, 1.2);
   const Colour brick = scaled({150, 84, 66}, random.range(0.8, 1.15));
   mesh.box(frame, glm::dvec3(x - half, 0, z - half), glm::dvec3(x + half, top, z + half), brick);
-  mesh.box(frame, glm::dvec3(x - half - 0.08, top, z - half - 0.08), glm::dvec3(x + half + 0.08, top + 0.14, z + half + 0.08),
-           {128, 124, 118});
+  mesh.box(frame, glm::dvec3(x - half - 0.08, top, z - half - 0.08),
+           glm::dvec3(x + half + 0.08, top + 0.14, z + half + 0.08), {128, 124, 118});
   for (const double side : {-0.5, 0.5}) {
     const auto foot = polygonAround(frame.at(x + half * side, top + 0.14, z), 0.12, 8);
     auto rim = foot;
@@ -99,15 +100,16 @@ void addChimney(Mesh& mesh, const Frame& frame, const RoofShape& shape, double r
   }
 }
 
-void addDormer(Mesh& mesh, const Frame& roof, double x, const RoofShape& shape, const FacadeStyle& style, Random& random) {
+void addDormer(Mesh& mesh, const Frame& roof, double x, const RoofShape& shape, const FacadeStyle& style,
+               Random& random) {
   constexpr double kWidthM = 1.7;
   constexpr double kHeightM = 1.5;
   constexpr double kSetBackM = 0.9;
   const Frame frame = roof.moved(x - kWidthM / 2, kSetBackM * shape.slope, -kSetBackM);
   FacadeStyle plain = style;
   plain.surrounds = false;
-  addWindow(mesh, frame, glm::dvec3(kWidthM, kHeightM, 0), glm::dvec3(0.35, 0.25, 0), glm::dvec3(kWidthM - 0.35, 1.35, 0), plain,
-            random);
+  addWindow(mesh, frame, glm::dvec3(kWidthM, kHeightM, 0), glm::dvec3(0.35, 0.25, 0),
+            glm::dvec3(kWidthM - 0.35, 1.35, 0), plain, random);
   const double deep = -kHeightM / shape.slope;
   mesh.triangle(frame.at(kWidthM, 0, 0), frame.at(kWidthM, kHeightM, deep), frame.at(kWidthM, kHeightM, 0), style.wall);
   mesh.triangle(frame.at(0, 0, 0), frame.at(0, kHeightM, 0), frame.at(0, kHeightM, deep), style.wall);
@@ -115,8 +117,8 @@ void addDormer(Mesh& mesh, const Frame& roof, double x, const RoofShape& shape, 
   const double peakDeep = -peak / shape.slope;
   const double middle = kWidthM / 2;
   mesh.triangle(frame.at(0, kHeightM, 0), frame.at(kWidthM, kHeightM, 0), frame.at(middle, peak, 0), style.wall);
-  mesh.quad(frame.at(kWidthM + 0.15, kHeightM - 0.1, 0.2), frame.at(kWidthM + 0.15, kHeightM - 0.1, deep), frame.at(middle, peak, peakDeep),
-            frame.at(middle, peak, 0.2), shape.tiles);
+  mesh.quad(frame.at(kWidthM + 0.15, kHeightM - 0.1, 0.2), frame.at(kWidthM + 0.15, kHeightM - 0.1, deep),
+            frame.at(middle, peak, peakDeep), frame.at(middle, peak, 0.2), shape.tiles);
   mesh.quad(frame.at(-0.15, kHeightM - 0.1, deep), frame.at(-0.15, kHeightM - 0.1, 0.2), frame.at(middle, peak, 0.2),
             frame.at(middle, peak, peakDeep), scaled(shape.tiles, 0.95));
 }
@@ -134,7 +136,8 @@ void addPitchedRoof(Mesh& mesh, const Frame& frame, const RoofShape& shape, cons
     addDormer(mesh, frame, ends + (shape.widthM - 2 * ends) * (i + 0.5) / dormers, shape, style, random);
   addChimney(mesh, frame, shape, rise, random);
   mesh.box(frame, glm::dvec3(-shape.endReachM, -0.1 - kEaveReachM * shape.slope, kEaveReachM),
-           glm::dvec3(shape.widthM + shape.endReachM, 0.02 - kEaveReachM * shape.slope, kEaveReachM + 0.13), {112, 110, 108});
+           glm::dvec3(shape.widthM + shape.endReachM, 0.02 - kEaveReachM * shape.slope, kEaveReachM + 0.13),
+           {112, 110, 108});
 }
 
 // A machine on a flat roof: housing, louvres, a fan.
@@ -167,13 +170,15 @@ void addFlatRoof(Mesh& mesh, const Frame& frame, const RoofShape& shape, const F
   mesh.box(frame, glm::dvec3(0, 0, kWallM - d), glm::dvec3(kWallM, kParapetM, -kWallM), style.wall);
   mesh.box(frame, glm::dvec3(w - kWallM, 0, kWallM - d), glm::dvec3(w, kParapetM, -kWallM), style.wall);
   for (const double z : {-kWallM - 0.08, -d - 0.08})
-    mesh.box(frame, glm::dvec3(-0.08, kParapetM, z), glm::dvec3(w + 0.08, kParapetM + 0.1, z + kWallM + 0.16), style.trim);
+    mesh.box(frame, glm::dvec3(-0.08, kParapetM, z), glm::dvec3(w + 0.08, kParapetM + 0.1, z + kWallM + 0.16),
+             style.trim);
   // The stair's head, then machines.
-  const glm::dvec3 stair(random.range(0.25, 0.55) * w, 0.05, -random.range(0.4, 0.6) * d);
-  mesh.box(frame, stair, stair + glm::dvec3(std::min(3.5, w * 0.3), 2.6, std::min(3.0, d * 0.3)), scaled(style.wall, 0.92));
+  const glm::dvec3 stair{random.range(0.25, 0.55) * w, 0.05, -random.range(0.4, 0.6) * d};
+  mesh.box(frame, stair, stair + glm::dvec3(std::min(3.5, w * 0.3), 2.6, std::min(3.0, d * 0.3)),
+           scaled(style.wall, 0.92));
   const int machines = std::min(8, static_cast<int>(w * d / 70) + 1);
   for (int i = 0; i < machines; ++i)
-    addMachine(mesh, frame, glm::dvec3(random.range(0.12, 0.88) * w, 0.05, -random.range(0.12, 0.88) * d), random);
+    addMachine(mesh, frame, glm::dvec3{random.range(0.12, 0.88) * w, 0.05, -random.range(0.12, 0.88) * d}, random);
   if (random.chance(0.4)) {
     const glm::dvec3 mast(w * 0.5, 0.05, -d * 0.5);
     mesh.box(frame, mast - glm::dvec3(0.05, 0, 0.05), mast + glm::dvec3(0.05, random.range(4, 7), 0.05), {180, 60, 52});

@@ -12,7 +12,9 @@ constexpr size_t kBufferBytes = size_t{1} << 18;  // stays in the second-level c
 }
 
 ByteStream::ByteStream(const InputFile& file, uint64_t offset)
-    : file_(file), fileOffset_(offset), buffer_(static_cast<size_t>(std::min<uint64_t>(kBufferBytes, file.sizeBytes()))) {
+    : file_(file),
+      fileOffset_(offset),
+      buffer_(static_cast<size_t>(std::min<uint64_t>(kBufferBytes, file.sizeBytes()))) {
   FARCELL_CHECK(offset <= file.sizeBytes());
 }
 

@@ -1,4 +1,12 @@
 // Mesh files as streams of triangles. Positions are double until the pipeline makes them cell-local.
+//
+// What counts as a triangle of the file: a polygon of n corners is n - 2 of them (none below three), as a fan around
+// its first corner, concave or not; in a strip, every three indices in a row are one, every other one turned round, and
+// those that only join two parts of a strip are left out as zeroArea. One bad index costs the triangles that use it.
+//
+// A file is opened in one reading (byte_stream.h): vertices are kept in memory (vertices.h), faces are counted and
+// checked, so that a file that contradicts itself fails at once. Each pass then streams the faces again and hands
+// them on through triangle_batch.h.
 #pragma once
 
 #include <array>
@@ -35,8 +43,8 @@ struct MeshCounts {
   std::map<std::string, uint64_t> skipped;  // triangles, by reason (names below)
 };
 // Reasons, shared by all formats.
-inline constexpr const char* kSkippedNonFinite = "nonFinitePosition";   // NaN or infinity
-inline constexpr const char* kSkippedZeroArea = "zeroArea";             // two equal corners, or exactly no area in double
+inline constexpr const char* kSkippedNonFinite = "nonFinitePosition";  // NaN or infinity
+inline constexpr const char* kSkippedZeroArea = "zeroArea";            // zero_area.h: exactly none; slivers are kept
 inline constexpr const char* kSkippedBadIndex = "indexOutOfRange";
 
 // An opened mesh. `forEachTriangle` may be called any number of times and gives the same triangles in the same order.

@@ -16,8 +16,8 @@ namespace {
 // Everything but the faces, and what the faces say about themselves as a whole.
 struct ObjContents {
   Vertices vertices;
-  std::vector<std::string> libraries;                  // rests of mtllib statements
-  std::unordered_set<std::string> usedMaterials;       // by at least one face
+  std::vector<std::string> libraries;             // rests of mtllib statements
+  std::unordered_set<std::string> usedMaterials;  // by at least one face
   uint64_t triangles = 0;
   bool everyCornerHasNormal = true;
   uint64_t greatestNormal = 0;
@@ -36,7 +36,10 @@ class ObjScan {
       if (keyword == "v") FARCELL_TRY(addVertex(line));
       if (keyword == "vn") FARCELL_TRY(addNormal(line));
       if (keyword == "f") FARCELL_TRY(countFace(line));
-      if (keyword == "usemtl") material_ = trimmed(line);
+      if (keyword == "usemtl") {
+        material_ = trimmed(line);
+        materialIsUsed_ = false;
+      }
       if (keyword == "mtllib") contents_.libraries.emplace_back(trimmed(line));
       if (keyword.find('\0') != std::string_view::npos) return lines_.bad("text", "a zero byte");
     }
@@ -53,8 +56,7 @@ class ObjScan {
   ObjLines lines_;
   ObjContents contents_;
   std::string material_;
-  bool materialNoted_ = false;
-  std::string notedMaterial_;
+  bool materialIsUsed_ = false;  // noted already
 };
 
 Result<> ObjScan::addVertex(std::string_view rest) {
@@ -94,9 +96,8 @@ Result<> ObjScan::countFace(std::string_view rest) {
     if (corner.hasNormal) contents_.greatestNormal = std::max(contents_.greatestNormal, corner.normal);
   }
   if (corners >= 3) contents_.triangles += corners - 2;
-  if (!materialNoted_ || notedMaterial_ != material_) contents_.usedMaterials.insert(material_);
-  materialNoted_ = true;
-  notedMaterial_ = material_;
+  if (!materialIsUsed_) contents_.usedMaterials.insert(material_);
+  materialIsUsed_ = true;
   return {};
 }
 
@@ -109,7 +110,6 @@ class ObjReader final : public MeshReader {
     info_.hasColours = !vertices_.colours.empty();
     for (const std::string& name : contents.usedMaterials) info_.hasColours |= materials_.find(name) != nullptr;
     info_.hasNormals = contents.everyCornerHasNormal && contents.greatestNormal < vertices_.normals.size();
-    normalCount_ = vertices_.normals.size();
     if (!info_.hasNormals) vertices_.normals = {};
   }
 
@@ -120,7 +120,6 @@ class ObjReader final : public MeshReader {
   InputFile file_;
   Vertices vertices_;
   ObjMaterials materials_;
-  uint64_t normalCount_ = 0;
   MeshInfo info_;
 };
 

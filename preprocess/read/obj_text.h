@@ -25,9 +25,9 @@ class ObjLines {
   ByteStream stream_;
   std::optional<Error> failure_;
   std::string joined_;
-  size_t unread_ = 0;          // bytes of the stream that the line last given still occupies
-  uint64_t lineOffset_ = 0;    // of the line last given
-  uint64_t lineNumber_ = 0;    // likewise, from 1
+  size_t unread_ = 0;        // bytes of the stream that the line last given still occupies
+  uint64_t lineOffset_ = 0;  // of the line last given
+  uint64_t lineNumber_ = 0;  // likewise, from 1
   uint64_t nextNumber_ = 1;
 };
 

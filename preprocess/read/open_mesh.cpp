@@ -32,9 +32,10 @@ Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path) 
   if (extension == ".obj") return openObj(std::move(file));
   for (const OtherFormat& other : kOtherFormats)
     if (extension == other.extension)
-      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY or OBJ", file.path(), other.name);
-  return fail(ErrorKind::unsupported, "{}: expected a PLY file or a name ending in .ply or .obj, found '{}'", file.path(),
-              extension);
+      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY or OBJ", file.path(),
+                  other.name);
+  return fail(ErrorKind::unsupported, "{}: expected a PLY file or a name ending in .ply or .obj, found '{}'",
+              file.path(), extension);
 }
 
 }  // namespace farcell

@@ -57,7 +57,8 @@ class HeaderLines {
   }
   tl::unexpected<Error> bad(const std::string& expected, std::string_view found) const {
     constexpr size_t kMaxQuoted = 80;
-    return corrupt(fmt::format("{}: line {}", path_, line_), start_, expected, std::string(found.substr(0, kMaxQuoted)));
+    return corrupt(fmt::format("{}: line {}", path_, line_), start_, expected,
+                   std::string(found.substr(0, kMaxQuoted)));
   }
   uint64_t nextOffset() const { return end_; }
   uint64_t nextLine() const { return line_ + 1; }
@@ -71,7 +72,8 @@ class HeaderLines {
 };
 
 Result<PlyType> parseType(const HeaderLines& lines, std::string_view word) {
-  const auto* found = std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](auto& known) { return known.name == word; });
+  const auto* found =
+      std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](auto& known) { return known.name == word; });
   if (found == kTypeNames.end()) return lines.bad("a scalar type such as 'float' or 'uchar'", word);
   return found->type;
 }
@@ -130,9 +132,10 @@ Result<> checkCounts(const InputFile& file, const PlyHeader& header) {
     const uint64_t rowBytes = leastRowBytes(header, element);
     if (rowBytes == 0) continue;
     if (element.count > left / rowBytes)
-      return corrupt(file.path(), header.bodyOffset,
-                     fmt::format("{} rows of element '{}', at least {} bytes each", element.count, element.name, rowBytes),
-                     fmt::format("at most {} bytes for them", left));
+      return corrupt(
+          file.path(), header.bodyOffset,
+          fmt::format("{} rows of element '{}', at least {} bytes each", element.count, element.name, rowBytes),
+          fmt::format("at most {} bytes for them", left));
     left -= element.count * rowBytes;
   }
   return {};
@@ -183,7 +186,8 @@ std::optional<size_t> PlyElement::find(std::string_view property) const {
 }
 
 bool PlyElement::hasLists() const {
-  return std::any_of(properties.begin(), properties.end(), [](auto& property) { return property.countType.has_value(); });
+  return std::any_of(properties.begin(), properties.end(),
+                     [](auto& property) { return property.countType.has_value(); });
 }
 
 uint64_t PlyElement::rowBytes() const {

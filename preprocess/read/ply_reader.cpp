@@ -29,7 +29,8 @@ uint64_t visitTriangles(Source& source, const PlyElement& element, const Triangl
 
 template <class Source>
 tl::unexpected<Error> badRow(const Source& source, const PlyElement& element, uint64_t row) {
-  return tl::unexpected<Error>(source.error(fmt::format("row {} of {} of element '{}'", row, element.count, element.name)));
+  return tl::unexpected<Error>(
+      source.error(fmt::format("row {} of {} of element '{}'", row, element.count, element.name)));
 }
 
 Result<size_t> findIndexList(const InputFile& file, const PlyElement& element) {
@@ -154,8 +155,8 @@ Result<std::unique_ptr<MeshReader>> openPly(InputFile file) {
   FARCELL_ASSIGN(PlyHeader header, readPlyHeader(file));
   FARCELL_TRY(checkElements(file, header));
   const PlyPlace start{header.bodyOffset, header.bodyLine};
-  FARCELL_ASSIGN(PlyBody body, withSource(file, header.encoding, start,
-                                          [&](auto& source) { return walkBody(source, header); }));
+  FARCELL_ASSIGN(PlyBody body,
+                 withSource(file, header.encoding, start, [&](auto& source) { return walkBody(source, header); }));
   return std::make_unique<PlyReader>(std::move(file), std::move(header), std::move(body));
 }
 

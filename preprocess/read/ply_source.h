@@ -35,14 +35,22 @@ T loadScalar(const std::byte* bytes) {
 template <class T, bool kSwap>
 T loadAs(PlyType type, const std::byte* bytes) {
   switch (type) {
-    case PlyType::int8: return static_cast<T>(loadScalar<int8_t, kSwap>(bytes));
-    case PlyType::uint8: return static_cast<T>(loadScalar<uint8_t, kSwap>(bytes));
-    case PlyType::int16: return static_cast<T>(loadScalar<int16_t, kSwap>(bytes));
-    case PlyType::uint16: return static_cast<T>(loadScalar<uint16_t, kSwap>(bytes));
-    case PlyType::int32: return static_cast<T>(loadScalar<int32_t, kSwap>(bytes));
-    case PlyType::uint32: return static_cast<T>(loadScalar<uint32_t, kSwap>(bytes));
-    case PlyType::float32: return static_cast<T>(loadScalar<float, kSwap>(bytes));
-    case PlyType::float64: return static_cast<T>(loadScalar<double, kSwap>(bytes));
+    case PlyType::int8:
+      return static_cast<T>(loadScalar<int8_t, kSwap>(bytes));
+    case PlyType::uint8:
+      return static_cast<T>(loadScalar<uint8_t, kSwap>(bytes));
+    case PlyType::int16:
+      return static_cast<T>(loadScalar<int16_t, kSwap>(bytes));
+    case PlyType::uint16:
+      return static_cast<T>(loadScalar<uint16_t, kSwap>(bytes));
+    case PlyType::int32:
+      return static_cast<T>(loadScalar<int32_t, kSwap>(bytes));
+    case PlyType::uint32:
+      return static_cast<T>(loadScalar<uint32_t, kSwap>(bytes));
+    case PlyType::float32:
+      return static_cast<T>(loadScalar<float, kSwap>(bytes));
+    case PlyType::float64:
+      return static_cast<T>(loadScalar<double, kSwap>(bytes));
   }
   return T{};
 }

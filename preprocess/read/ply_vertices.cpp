@@ -45,8 +45,8 @@ template <class Source>
 bool readRow(Source& source, const PlyElement& element, const Targets& targets, RowValues& values) {
   for (size_t i = 0; i < targets.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const bool read = targets[i] == kUnused ? skipProperty(source, property)
-                                            : source.real(property.type, values[targets[i]]);
+    const bool read =
+        targets[i] == kUnused ? skipProperty(source, property) : source.real(property.type, values[targets[i]]);
     if (!read) return false;
   }
   return true;

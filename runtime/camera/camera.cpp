@@ -100,7 +100,8 @@ Result<Camera> readCamera(const Json& json, size_t index, const std::string& fil
   if (between(camera.position, camera.target) == glm::dvec3(0))
     return place.fail("target: expected a point other than position");
   if (direction(camera.up) == glm::dvec3(0)) return place.fail("up: expected a vector that is not zero");
-  if (!(fovYDeg > 0 && fovYDeg < 180)) return place.fail("fovYDeg: expected more than 0 and less than 180, found {}", fovYDeg);
+  if (!(fovYDeg > 0 && fovYDeg < 180))
+    return place.fail("fovYDeg: expected more than 0 and less than 180, found {}", fovYDeg);
   camera.fovYRad = fovYDeg * std::numbers::pi / 180;
   return camera;
 }
@@ -135,8 +136,7 @@ CameraAxes cameraAxes(const Camera& camera) {
 Result<std::vector<Camera>> parseCameras(const std::string& json, const std::string& name) {
   if (json.size() > kMaxFileBytes)
     return fail(ErrorKind::exhausted, "{}: {} bytes, at most {} are allowed", name, json.size(), kMaxFileBytes);
-  if (nestsTooDeep(json))
-    return fail(ErrorKind::invalidArgument, "{}: nested deeper than {} levels", name, kMaxDepth);
+  if (nestsTooDeep(json)) return fail(ErrorKind::invalidArgument, "{}: nested deeper than {} levels", name, kMaxDepth);
   try {
     const Json root = Json::parse(json);
     const auto list = root.is_object() ? root.find("cameras") : root.end();

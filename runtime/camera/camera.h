@@ -26,7 +26,8 @@ struct CameraAxes {
 CameraAxes cameraAxes(const Camera& camera);
 
 // {"cameras":[{"name","position":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovYDeg":40}]}; doubles, world coordinates.
-// Errors name the file, the camera and the member; finite numbers, fovYDeg in (0, 180), target != position are required.
+// Errors name the file, the camera and the member; finite numbers, fovYDeg in (0, 180), target != position are
+// required.
 Result<std::vector<Camera>> readCameras(const std::filesystem::path& path);
 Result<std::vector<Camera>> parseCameras(const std::string& json, const std::string& name);
 

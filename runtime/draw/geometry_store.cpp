@@ -83,8 +83,10 @@ bool GeometryStore::place(uint32_t cell, const GpuMesh& mesh) {
 void GeometryStore::addChunk(const GpuMesh& mesh) {
   // A small budget gets smaller chunks; a mesh larger than a chunk one of its own.
   const uint64_t bytes = std::min(kChunkBytes, budgetBytes_);
-  const auto vertices = static_cast<uint32_t>(std::max<uint64_t>(mesh.vertices.size(), kChunkVertices * bytes / kChunkBytes));
-  const auto indices = static_cast<uint32_t>(std::max<uint64_t>(mesh.indices.size(), kChunkIndices * bytes / kChunkBytes));
+  const auto vertices =
+      static_cast<uint32_t>(std::max<uint64_t>(mesh.vertices.size(), kChunkVertices * bytes / kChunkBytes));
+  const auto indices =
+      static_cast<uint32_t>(std::max<uint64_t>(mesh.indices.size(), kChunkIndices * bytes / kChunkBytes));
   const uint64_t sizeBytes = vertices * sizeof(GpuVertex) + indices * sizeof(uint32_t);
   chunks_.push_back({createBuffer(), createBuffer(), RangeAllocator(vertices), RangeAllocator(indices), sizeBytes});
   const Chunk& chunk = chunks_.back();
@@ -131,7 +133,8 @@ void GeometryStore::draw(const std::vector<uint32_t>& cells) {
   for (const auto& [chunk, list] : perChunk) {
     glVertexArrayVertexBuffer(layout_.name(), 0, chunk->vertices.name(), 0, sizeof(GpuVertex));
     glVertexArrayElementBuffer(layout_.name(), chunk->indices.name());
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
                                 static_cast<GLsizei>(list.size()), 0);
     first += list.size();
   }

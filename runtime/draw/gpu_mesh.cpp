@@ -13,7 +13,8 @@ namespace {
 constexpr uint32_t kOpaque = 0xff000000u;
 
 uint32_t packedDefaultAlbedo() {
-  return kDefaultAlbedo[0] | static_cast<uint32_t>(kDefaultAlbedo[1]) << 8 | static_cast<uint32_t>(kDefaultAlbedo[2]) << 16;
+  return kDefaultAlbedo[0] | static_cast<uint32_t>(kDefaultAlbedo[1]) << 8 |
+         static_cast<uint32_t>(kDefaultAlbedo[2]) << 16;
 }
 
 uint32_t packedOctahedral(glm::vec3 unit) {
@@ -27,9 +28,8 @@ void assignFlatNormals(GpuMesh& mesh) {
   std::vector<bool> owned(mesh.vertices.size(), false);
   for (size_t first = 0; first < mesh.indices.size(); first += 3) {
     const std::array<uint32_t, 3> corners = {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
-    const uint32_t normal = packedOctahedral(faceNormal(mesh.vertices[corners[0]].position,
-                                                        mesh.vertices[corners[1]].position,
-                                                        mesh.vertices[corners[2]].position));
+    const uint32_t normal = packedOctahedral(faceNormal(
+        mesh.vertices[corners[0]].position, mesh.vertices[corners[1]].position, mesh.vertices[corners[2]].position));
     size_t chosen = 3;
     for (size_t i = 0; i < 3 && chosen == 3; ++i)
       if (!owned[corners[i]] || mesh.vertices[corners[i]].normal == normal) chosen = i;

@@ -6,7 +6,8 @@
 namespace farcell {
 namespace {
 
-std::vector<uint8_t> placed(const std::vector<uint8_t>& cropped, const ViewImage& view, int imageSize, size_t channels) {
+std::vector<uint8_t> placed(const std::vector<uint8_t>& cropped, const ViewImage& view, int imageSize,
+                            size_t channels) {
   const size_t edge = static_cast<size_t>(imageSize);
   std::vector<uint8_t> image(edge * edge * channels, 0);
   for (size_t y = 0; y < view.height; ++y)

@@ -11,8 +11,8 @@ namespace farcell {
 // Levels of an image of `imageSize` (a power of two) texels down to 1 x 1.
 int mipLevelCount(int imageSize);
 
-// RGBA8, premultiplied; level k has (imageSize >> k)^2 texels. Each texel is the mean of the four below it: averages are
-// taken in the space of shading.h. Outside the crop everything is transparent.
+// RGBA8, premultiplied; level k has (imageSize >> k)^2 texels. Each texel is the mean of the four below it: averages
+// are taken in the space of shading.h. Outside the crop everything is transparent.
 std::vector<std::vector<uint8_t>> buildColourMips(const ViewImage& view, int imageSize);
 
 // imageSize^2 depth values, 0 outside the crop.

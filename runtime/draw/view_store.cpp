@@ -62,15 +62,34 @@ const ResidentView* ViewStore::add(uint32_t cell, uint32_t view, const ViewImage
   return &entries_.insert_or_assign({cell, view}, Entry{resident, portion_}).first->second.view;
 }
 
+void ViewStore::beginPortion() {
+  ++portion_;
+  if (!wantsAllLayers_) return;
+  wantsAllLayers_ = false;
+  entries_.clear();
+  freeLayers_.clear();
+  colours_.reset();
+  depths_.reset();
+  layers_ = 0;
+  grow(maxLayers_);
+}
+
 int ViewStore::takeLayer() {
-  if (freeLayers_.empty() && layers_ < maxLayers_) grow(std::min(maxLayers_, std::max(kFirstLayers, 2 * layers_)));
+  if (freeLayers_.empty() && layers_ < maxLayers_) {
+    // Old and new layers exist side by side while they are copied, and the budget holds then too.
+    const int wanted = std::min(maxLayers_, std::max(kFirstLayers, 2 * layers_));
+    if (layers_ + wanted <= maxLayers_ || layers_ == 0) {
+      grow(wanted);
+    } else {
+      wantsAllLayers_ = true;
+    }
+  }
   if (freeLayers_.empty() && !evictOldest()) return -1;
   const int layer = freeLayers_.back();
   freeLayers_.pop_back();
   return layer;
 }
 
-// While layers are copied, old and new ones exist side by side: beyond half of the budget for a moment more than it.
 void ViewStore::grow(int layers) {
   const int levels = mipLevelCount(imageSize_);
   GlTexture colours = createArray(GL_RGBA8, imageSize_, levels, layers, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
@@ -105,7 +124,8 @@ void ViewStore::upload(int layer, const ViewImage& image) const {
     glTextureSubImage3D(colours_.name(), level, 0, 0, layer, imageSize_ >> level, imageSize_ >> level, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, mips[static_cast<size_t>(level)].data());
   const auto depth = buildDepthImage(image, imageSize_);
-  glTextureSubImage3D(depths_.name(), 0, 0, 0, layer, imageSize_, imageSize_, 1, GL_RED, GL_UNSIGNED_BYTE, depth.data());
+  glTextureSubImage3D(depths_.name(), 0, 0, 0, layer, imageSize_, imageSize_, 1, GL_RED, GL_UNSIGNED_BYTE,
+                      depth.data());
 }
 
 void ViewStore::bind() const {

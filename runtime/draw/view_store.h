@@ -24,7 +24,7 @@ class ViewStore {
   // REQUIRES: a current context. One layer is always held.
   ViewStore(int imageSize, uint64_t budgetBytes);
 
-  void beginPortion() { ++portion_; }
+  void beginPortion();
   // Keeps a known view for this portion; null when it has to be added.
   const ResidentView* keep(uint32_t cell, uint32_t view);
   // Uploads and keeps; an empty image (width 0) costs no layer. Null when the portion's views leave no room.
@@ -48,6 +48,7 @@ class ViewStore {
   int imageSize_;
   int maxLayers_;
   int layers_ = 0;
+  bool wantsAllLayers_ = false;  // a portion was refused for want of room to copy while growing
   uint64_t portion_ = 0;
   GlTexture colours_;
   GlTexture depths_;

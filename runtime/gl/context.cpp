@@ -49,7 +49,8 @@ std::vector<Candidate> deviceDisplays(const char* clientExtensions) {
   for (int i = 0; i < count; ++i) {
     const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
     if (lists(extensions, "EGL_MESA_device_software")) continue;
-    result.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr), fmt::format("device {}", i)});
+    result.push_back(
+        {eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr), fmt::format("device {}", i)});
   }
   return result;
 }
@@ -58,8 +59,8 @@ std::vector<Candidate> candidates() {
   const char* clientExtensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> result = deviceDisplays(clientExtensions);
   if (lists(clientExtensions, "EGL_MESA_platform_surfaceless"))
-    result.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
-                      "Mesa surfaceless"});
+    result.push_back(
+        {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "Mesa surfaceless"});
   return result;
 }
 
@@ -69,9 +70,15 @@ EGLContext createContext(EGLDisplay display) {
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, kConfig.data(), &config, 1, &count) || count == 0) config = EGL_NO_CONFIG_KHR;
-  const std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                            EGL_CONTEXT_OPENGL_DEBUG, kDebugContext ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+  const std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                            4,
+                                            EGL_CONTEXT_MINOR_VERSION,
+                                            5,
+                                            EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                            EGL_CONTEXT_OPENGL_DEBUG,
+                                            kDebugContext ? EGL_TRUE : EGL_FALSE,
+                                            EGL_NONE};
   return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 

@@ -11,7 +11,8 @@ namespace farcell {
 class GlContext {
  public:
   // Headless through EGL: the device platform of a GPU's driver first, Mesa's surfaceless platform second.
-  // Current on the calling thread until destroyed. unsupported when no 4.5 core context can be had, saying what was tried.
+  // Current on the calling thread until destroyed. unsupported when no 4.5 core context can be had, saying what was
+  // tried.
   static Result<GlContext> createHeadless();
   GlContext(GlContext&&) noexcept;
   GlContext& operator=(GlContext&&) noexcept;

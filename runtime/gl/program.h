@@ -11,7 +11,7 @@
 namespace farcell {
 
 struct ProgramFiles {
-  std::string vertex;                // from the repository root, e.g. "shaders/gl/triangles.vert"
+  std::string vertex;  // from the repository root, e.g. "shaders/gl/triangles.vert"
   std::string fragment;
   std::vector<std::string> defines;  // "NAME" or "NAME value", for both stages
 };

@@ -18,8 +18,8 @@ std::string_view trimmed(std::string_view line) {
 
 struct Include {
   bool present = false;
-  bool system = false;     // <...>
-  std::string_view path;   // empty: malformed
+  bool system = false;    // <...>
+  std::string_view path;  // empty: malformed
 };
 
 Include parseInclude(std::string_view line) {
@@ -33,7 +33,8 @@ Include parseInclude(std::string_view line) {
   return {true, false, end == std::string_view::npos ? std::string_view() : line.substr(1, end - 1)};
 }
 
-Result<> append(ShaderText& result, const std::string& path, const std::string& includedFrom, const ShaderSource& source) {
+Result<> append(ShaderText& result, const std::string& path, const std::string& includedFrom,
+                const ShaderSource& source) {
   if (std::find(result.files.begin(), result.files.end(), path) != result.files.end()) return {};
   if (result.files.size() == kMaxFiles)
     return fail(ErrorKind::invalidArgument, "{}: more than {} shader files included", path, kMaxFiles);

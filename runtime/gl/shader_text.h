@@ -31,7 +31,8 @@ Result<std::string> embeddedShaderSource(const std::string& path);
 Result<ShaderText> resolveShader(const std::string& path, std::span<const std::string> defines,
                                  const ShaderSource& source);
 
-// A compiler's log with source string numbers replaced by file names ("0:12(3): error" -> "shaders/gl/a.vert:12(3): error").
+// A compiler's log with source string numbers replaced by file names ("0:12(3): error" -> "shaders/gl/a.vert:12(3):
+// error").
 std::string namedLog(const std::string& log, std::span<const std::string> files);
 
 }  // namespace farcell

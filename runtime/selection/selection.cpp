@@ -59,8 +59,12 @@ class Selector {
  public:
   Selector(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, const View& view,
            const SelectionSettings& settings)
-      : directory_(directory), viewpoints_(viewpoints), back_(cameraAxes(camera).back), view_(view),
-        settings_(settings), imageTexel_(texelSize(directory.model.settings.imageSize)) {}
+      : directory_(directory),
+        viewpoints_(viewpoints),
+        back_(cameraAxes(camera).back),
+        view_(view),
+        settings_(settings),
+        imageTexel_(texelSize(directory.model.settings.imageSize)) {}
 
   Cut run() {
     if (!directory_.cells.empty()) visit(0);
@@ -108,22 +112,16 @@ class Selector {
   }
 
   bool farEnough(const CellRecord& cell) const {
-    const double halfSide = cellHalfSide(cell);
-    if (glm::length(view_.eye - centre(cell)) <= std::sqrt(3.0) * halfSide) return false;
+    const GridBox cube = cellBox(directory_.model.grid, cell.key);
+    const double halfSide = (cube.max.x - cube.min.x) * 0.5;
+    if (glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) <= std::sqrt(3.0) * halfSide) return false;
     const double pixel = distanceSteps(view_.eye, cell.content) * view_.pixelAngle;
     return imageTexel_ * halfSide <= settings_.texelPixels * pixel;
   }
 
-  glm::dvec3 centre(const CellRecord& cell) const {
-    const GridBox box = cellBox(directory_.model.grid, cell.key);
-    return glm::dvec3(box.min + box.max) * 0.5;
-  }
-  double cellHalfSide(const CellRecord& cell) const {
-    return std::ldexp(0.5, directory_.model.grid.bits - static_cast<int>(cell.key.level));
-  }
-
   void addImpostor(uint32_t index) {
-    glm::dvec3 direction = view_.eye - centre(directory_.cells[index]);
+    const GridBox& content = directory_.cells[index].content;
+    glm::dvec3 direction = view_.eye - glm::dvec3(content.min + content.max) * 0.5;
     if (direction == glm::dvec3(0)) direction = back_;
     cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(viewpoints_.nearest(direction))});
   }

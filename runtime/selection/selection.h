@@ -35,14 +35,16 @@ struct SelectionSettings {
 struct CutEntry {
   uint32_t cell = 0;
   Representation representation = Representation::triangles;
-  uint32_t view = 0;   // impostors: the view of the smallest angle to (eye - cell centre)
+  // Impostors: the view of the smallest angle to (eye - centre of the cell's content). Content is often thin and off
+  // the cube's centre (a city in its cells): seen from near, the direction to the cube would choose a wrong view.
+  uint32_t view = 0;
 };
 
 // Entries lie front to back: of two, the later one can never hide the earlier (octree order seen from the eye).
 struct Cut {
   std::vector<CutEntry> entries;
   uint64_t triangles = 0;
-  uint32_t culled = 0;   // cells (with all below) outside the frustum
+  uint32_t culled = 0;  // cells (with all below) outside the frustum
 };
 
 Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,

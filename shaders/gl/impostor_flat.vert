@@ -1,6 +1,6 @@
-// The billboard of the 2010 paper: the view's cropped rectangle on the plane through the cell's centre, at that plane's
-// own depth. Where the plane leaves the cell, its depth against the triangles of a neighbouring cell is wrong by up to
-// the cell's size: that belongs to this kind, which is kept as the baseline.
+// The billboard of the 2010 paper: the view's cropped rectangle on a plane through the middle of the cell's content, at
+// that plane's own depth. Where the plane leaves the cell, its depth against the triangles of a neighbouring cell is
+// wrong by up to the cell's size: that belongs to this kind, which is kept as the baseline.
 #include "shaders/shared/draw.h"
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
@@ -14,9 +14,11 @@ void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   texel = mix(instance.viewMin.xy, instance.viewMax.xy, corner);
   float edge = instance.boxMin.w;
-  // The inverse of textureX, textureY on the plane: their rows are the view's unit axes divided by a texel's edge.
-  vec3 local = edge * edge * (instance.textureX.xyz * (texel.x - instance.textureX.w) +
-                              instance.textureY.xyz * (texel.y - instance.textureY.w));
+  vec3 toward = normalize(instance.textureZ.xyz);
+  // The inverse of textureX, textureY: their rows are the view's unit axes divided by a texel's edge.
+  vec3 onPlane = edge * edge * (instance.textureX.xyz * (texel.x - instance.textureX.w) +
+                                instance.textureY.xyz * (texel.y - instance.textureY.w));
+  vec3 local = onPlane + toward * dot(toward, 0.5 * (instance.boxMin.xyz + instance.boxMax.xyz));
   vec3 relative = instance.centre.xyz + instance.centre.w * local;
   gl_Position = vec4(dot(frame.clipX.xyz, relative), dot(frame.clipY.xyz, relative), frame.eyeFraction.w,
                      dot(frame.clipW.xyz, relative));

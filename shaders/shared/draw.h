@@ -10,7 +10,7 @@
 FARCELL_SHARED_BEGIN
 
 struct FrameUniforms {
-  vec4 clipX;        // xyz: clip x = dot(xyz, position)
+  vec4 clipX;  // xyz: clip x = dot(xyz, position)
   vec4 clipY;
   vec4 clipW;
   ivec4 eyeSteps;    // xyz: integer part of the eye's position on the grid
@@ -22,10 +22,10 @@ struct FrameUniforms {
 // One impostor. Local: from the cell's centre, world axes, in half sides of the cell. Texture space: x, y in texels of
 // the view (0 is the image's lower left corner), z in values of the depth image (1..254 + 1, linear in w).
 struct ImpostorInstance {
-  vec4 centre;      // xyz: cell centre - eye, grid steps; w: half side, grid steps
-  vec4 boxMin;      // xyz: content box, local; w: edge of a texel, half sides
-  vec4 boxMax;      // w: layer of the view in the texture arrays
-  vec4 textureX;    // texture x = dot(xyz, local) + w
+  vec4 centre;    // xyz: cell centre - eye, grid steps; w: half side, grid steps
+  vec4 boxMin;    // xyz: content box, local; w: edge of a texel, half sides
+  vec4 boxMax;    // w: layer of the view in the texture arrays
+  vec4 textureX;  // texture x = dot(xyz, local) + w
   vec4 textureY;
   vec4 textureZ;
   vec4 eye;         // xyz: the eye, local; w: added to log2(clip w) to get the level of detail

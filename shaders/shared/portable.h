@@ -12,7 +12,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#define FARCELL_SHARED_BEGIN namespace farcell::shared { using namespace glm;
+#define FARCELL_SHARED_BEGIN  \
+  namespace farcell::shared { \
+  using namespace glm;
 #define FARCELL_SHARED_END }
 #define FARCELL_SHARED inline
 #else

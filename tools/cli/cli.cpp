@@ -1,6 +1,8 @@
 #include "tools/cli/cli.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -48,9 +50,11 @@ Result<uint64_t> parseCount(const std::string& text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   const uint64_t factor = countFactor(std::string_view(end, text.data() + text.size()));
   const double count = value * static_cast<double>(factor);
-  if (code != std::errc{} || factor == 0 || !(count >= 0 && count <= 1e18))
+  // A part of one thing is a slip ("1.5"); 1.1M is not, though 1.1 has no exact double.
+  const bool whole = std::abs(count - std::round(count)) <= 1e-9 * count;
+  if (code != std::errc{} || factor == 0 || !(count >= 0 && count <= 1e18) || !whole)
     return fail(ErrorKind::invalidArgument, "expected a count such as 1234, 500k or 5M, found '{}'", text);
-  return static_cast<uint64_t>(count + 0.5);
+  return static_cast<uint64_t>(std::round(count));
 }
 
 Result<ImageSize> parseImageSize(const std::string& text) {

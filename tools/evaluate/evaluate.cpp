@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 
 #include "cache/base/interrupt.h"
 #include "cache/base/progress.h"
@@ -29,18 +28,8 @@ struct Run {
   std::vector<Camera> cameras;
   std::vector<std::string> stems;  // of file names, one a camera
   ReportFacts facts;
-  std::vector<Entry> entries;      // of finished cameras
+  std::vector<Entry> entries;  // of finished cameras
 };
-
-// Entries refer to cameras by name.
-void makeNamesUnique(std::vector<Camera>& cameras) {
-  std::set<std::string> taken;
-  for (Camera& camera : cameras) {
-    const std::string name = camera.name;
-    for (int number = 2; !taken.insert(camera.name).second; ++number)
-      camera.name = fmt::format("{} #{}", name, number);
-  }
-}
 
 Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Model& model) {
   std::vector<Camera> cameras;
@@ -50,9 +39,7 @@ Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Mo
   } else {
     FARCELL_ASSIGN(cameras, readCameras(options.cameras));
   }
-  if (cameras.empty())
-    return fail(ErrorKind::invalidArgument, "{}: no cameras", options.cameras.string());
-  makeNamesUnique(cameras);
+  if (cameras.empty()) return fail(ErrorKind::invalidArgument, "{}: no cameras", options.cameras.string());
   return cameras;
 }
 
@@ -71,8 +58,8 @@ Result<ReferenceImage> traceCamera(Run& run, const Camera& camera) {
   settings.width = run.options.width;
   settings.height = run.options.height;
   settings.samples = run.options.referenceSamples;
-  FARCELL_ASSIGN(ReferenceImage image, run.mesh ? run.mesh->trace(camera, settings)
-                                                : traceReference(run.pack, camera, settings));
+  FARCELL_ASSIGN(ReferenceImage image,
+                 run.mesh ? run.mesh->trace(camera, settings) : traceReference(run.pack, camera, settings));
   run.facts.referenceSeconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return image;
 }
@@ -87,8 +74,7 @@ Result<> measureCamera(Run& run, size_t index, Progress& progress) {
   for (const RendererPlan& plan : run.plans) {
     FARCELL_TRY(checkInterrupt());
     const MeasureSettings settings{options.timedFrames, options.residentBytes, options.background};
-    FARCELL_ASSIGN(Measurement measurement,
-                   measureRenderer(run.context, run.pack, camera, plan, reference, settings));
+    FARCELL_ASSIGN(Measurement measurement, measureRenderer(run.context, run.pack, camera, plan, reference, settings));
     const FrameImage& image = measurement.image;
     FARCELL_TRY(writeRendererPictures(options.output, run.stems[index], plan.name, reference,
                                       {image.width, image.height, image.rgba, image.impostorCoverage},
@@ -162,8 +148,15 @@ Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_ASSIGN(std::optional<MeshReference> mesh, loadMesh(options, pack.directory(), progress));
 
   std::vector<std::string> stems = cameraStems(cameras);
-  Run run{options,           pack, context, std::move(mesh), std::move(plans), std::move(cameras), std::move(stems),
-          reportFacts(options, pack, context), {}};
+  Run run{options,
+          pack,
+          context,
+          std::move(mesh),
+          std::move(plans),
+          std::move(cameras),
+          std::move(stems),
+          reportFacts(options, pack, context),
+          {}};
   const Result<> measured = measureCameras(run, progress);
   run.facts.complete = measured.has_value();
   setRatios(run.entries);

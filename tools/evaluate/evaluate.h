@@ -16,10 +16,10 @@ namespace farcell {
 
 struct EvaluateOptions {
   std::filesystem::path pack;
-  std::filesystem::path cameras;   // a camera file; empty: autoCameras
+  std::filesystem::path cameras;  // a camera file; empty: autoCameras
   int autoCameras = 0;
-  std::filesystem::path mesh;      // empty: the pack's own leaves are the truth
-  std::filesystem::path output;    // directory, made when absent
+  std::filesystem::path mesh;    // empty: the pack's own leaves are the truth
+  std::filesystem::path output;  // directory, made when absent
   std::string renderers;
   int width = 1280;
   int height = 720;
@@ -28,7 +28,7 @@ struct EvaluateOptions {
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;
   Colour background = {255, 255, 255};
-  bool json = false;               // stdout: the report instead of a table
+  bool json = false;  // stdout: the report instead of a table
 };
 
 // An interrupt or a failure after the first camera leaves a report of the cameras that were finished, marked

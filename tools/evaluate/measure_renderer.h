@@ -14,8 +14,8 @@ struct Measurement {
 };
 
 struct MeasureSettings {
-  int timedFrames = 5;          // after one cold frame, whose page reads are counted
-  uint64_t residentBytes = 0;   // see Renderer
+  int timedFrames = 5;         // after one cold frame, whose page reads are counted
+  uint64_t residentBytes = 0;  // see Renderer
   Colour background{};
 };
 

@@ -18,8 +18,8 @@ Result<> writeWithOiio(const std::filesystem::path& path, const Picture& picture
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  if (!output->open(path.string(), spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, picture.pixels.data()) || !output->close())
+  if (!output->open(path.string(), spec) || !output->write_image(OIIO::TypeDesc::UINT8, picture.pixels.data()) ||
+      !output->close())
     return fail(ErrorKind::io, "{}: {}", path.string(), output->geterror());
   return {};
 }

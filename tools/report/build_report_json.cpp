@@ -40,9 +40,8 @@ Json buildReportJson(const Directory& directory, uint64_t packBytes, const Build
                    {"vertices", report.inputVertices},
                    {"skipped", countsJson(report.skipped)}};
   json["cells"] = {{"leaf", leaves}, {"inner", static_cast<int64_t>(directory.cells.size()) - leaves}};
-  json["views"] = {{"baked", report.viewsBaked},
-                   {"kept", report.viewsKept},
-                   {"leftOut", countsJson(report.viewsLeftOut)}};
+  json["views"] = {
+      {"baked", report.viewsBaked}, {"kept", report.viewsKept}, {"leftOut", countsJson(report.viewsLeftOut)}};
   json["bytes"] = {{"pack", packBytes},
                    {"impostors", report.impostorBytes},
                    {"impostorsRaw", report.impostorRawBytes},

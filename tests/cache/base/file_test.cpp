@@ -255,7 +255,8 @@ TEST_F(FileTest, SeveralThreadsReadOneFileAtOnce) {
       readers.emplace_back([&, thread] {
         for (int i = thread; i < 10'000; i += 4) {
           std::string out(8, '?');
-          const bool read = file->readAt(static_cast<uint64_t>(i) * 8, std::as_writable_bytes(std::span(out))).has_value();
+          const bool read =
+              file->readAt(static_cast<uint64_t>(i) * 8, std::as_writable_bytes(std::span(out))).has_value();
           if (!read || out != fmt::format("{:08}", i)) ++wrong;
         }
       });

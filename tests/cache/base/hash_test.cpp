@@ -22,7 +22,8 @@ TEST(Hash, OfNothingIsThePublishedValueOfXxh3) {
   EXPECT_EQ(hashBytes({}), 0x2D06800538D394C2ull);
 }
 
-// The input of the reference implementation's self-test (xxhsum sanity check): a byte is the top byte of a running product.
+// The input of the reference implementation's self-test (xxhsum sanity check): a byte is the top byte of a running
+// product.
 std::vector<std::byte> referenceInput(size_t count) {
   constexpr uint64_t kPrime32 = 2654435761u;
   constexpr uint64_t kPrime64 = 11400714785074694797ull;

@@ -126,7 +126,8 @@ TEST(Grid, ACellsChildrenFillItsBoxWithoutOverlap) {
 TEST(Grid, BoxCentreAndHalfSideOfACellAgree) {
   for (const Box& model : models()) {
     const Grid grid = gridAround(model.min, model.max);
-    for (const CellKey& key : {CellKey{}, CellKey{1, 1, 0, 1}, CellKey{7, 100, 3, 127}, CellKey{kMaxLevel, 32767, 0, 16384}}) {
+    for (const CellKey& key :
+         {CellKey{}, CellKey{1, 1, 0, 1}, CellKey{7, 100, 3, 127}, CellKey{kMaxLevel, 32767, 0, 16384}}) {
       const GridBox box = cellBox(grid, key);
       const glm::dvec3 low = grid.worldFromGrid(box.min), high = grid.worldFromGrid(box.max);
       const glm::dvec3 centre = cellCentre(grid, key);
@@ -164,7 +165,8 @@ TEST(Grid, MortonCodesInterleaveTheBitsAndChildrenFollowTheirParentsOrder) {
     const CellKey key{kMaxLevel, static_cast<uint32_t>(random()) & mask, static_cast<uint32_t>(random()) & mask,
                       static_cast<uint32_t>(random()) & mask};
     ASSERT_EQ(mortonCode(key), slowMorton(key));
-    for (uint32_t octant = 0; octant < 8; ++octant) ASSERT_EQ(mortonCode(key.child(octant)), mortonCode(key) * 8 + octant);
+    for (uint32_t octant = 0; octant < 8; ++octant)
+      ASSERT_EQ(mortonCode(key.child(octant)), mortonCode(key) * 8 + octant);
   }
 }
 

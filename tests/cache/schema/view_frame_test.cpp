@@ -58,8 +58,7 @@ TEST(ViewFrame, AnImageHoldsTheWholeGrownCubeFromEveryDirection) {
   for (const glm::dvec3& direction : directions()) {
     const ViewFrame frame = viewFrame(direction);
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 p =
-          kCellGrowth * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      const glm::dvec3 p = kCellGrowth * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       ASSERT_LE(std::abs(glm::dot(p, frame.right)), kViewHalfExtent * (1 + 1e-14));
       ASSERT_LE(std::abs(glm::dot(p, frame.up)), kViewHalfExtent * (1 + 1e-14));
     }

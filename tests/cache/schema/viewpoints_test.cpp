@@ -41,7 +41,8 @@ std::vector<Symmetry> symmetries() {
 }
 
 long double exactDot(glm::dvec3 a, glm::dvec3 b) {
-  return static_cast<long double>(a.x) * b.x + static_cast<long double>(a.y) * b.y + static_cast<long double>(a.z) * b.z;
+  return static_cast<long double>(a.x) * b.x + static_cast<long double>(a.y) * b.y +
+         static_cast<long double>(a.z) * b.z;
 }
 
 glm::dvec3 randomUnit(std::mt19937& random) {
@@ -60,9 +61,8 @@ std::vector<glm::dvec3> awkwardAndRandomDirections(const Viewpoints& set, std::m
   for (int i = 0; i < 60; ++i) {
     const glm::dvec3 view = set.directions()[random() % set.directions().size()];
     std::vector<glm::dvec3> sorted(set.directions().begin(), set.directions().end());
-    std::partial_sort(sorted.begin(), sorted.begin() + 3, sorted.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
-      return exactDot(a, view) > exactDot(b, view);
-    });
+    std::partial_sort(sorted.begin(), sorted.begin() + 3, sorted.end(),
+                      [&](const glm::dvec3& a, const glm::dvec3& b) { return exactDot(a, view) > exactDot(b, view); });
     result.push_back(view);
     result.push_back(sorted[0] + sorted[1]);
     result.push_back(sorted[0] + sorted[1] + sorted[2]);
@@ -119,7 +119,8 @@ TEST(Viewpoints, EverySymmetryOfTheAxesMapsASetToItselfBitForBit) {
 }
 
 TEST(Viewpoints, AreSpreadEvenly) {
-  // Angle from each view to its nearest neighbour. 12 and 20 are the icosahedron and the dodecahedron: known in closed form.
+  // Angle from each view to its nearest neighbour. 12 and 20 are the icosahedron and the dodecahedron: known in closed
+  // form.
   for (const int count : kAllSets) {
     const Viewpoints set = make(count);
     double smallest = 10, largest = 0;
@@ -250,8 +251,7 @@ TEST(Viewpoints, OnAnEdgeTheThirdWeightIsZero) {
       // The two heaviest views of any triple are the ends of an edge of its triangle.
       const auto triangle = set.nearestThree(randomUnit(random));
       const double t = share(random);
-      const glm::dvec3 onEdge =
-          (1 - t) * set.directions()[triangle.views[0]] + t * set.directions()[triangle.views[1]];
+      const glm::dvec3 onEdge = (1 - t) * set.directions()[triangle.views[0]] + t * set.directions()[triangle.views[1]];
       const auto triple = set.nearestThree(onEdge);
       ASSERT_NEAR(triple.weights[2], 0, 1e-14);
       const std::set<int> ends = {triangle.views[0], triangle.views[1]};

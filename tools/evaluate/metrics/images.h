@@ -24,7 +24,7 @@ struct TestImage {
   int width = 0;
   int height = 0;
   std::span<const uint8_t> rgba;              // 4 a pixel, premultiplied by coverage; alpha is coverage
-  std::span<const uint8_t> impostorCoverage;  // 1 a pixel, 0-255: share drawn by impostors; empty: none
+  std::span<const uint8_t> impostorCoverage;  // 1 a pixel: what of alpha impostors drew; empty: nothing
 };
 
 // R, G, B of 0-255 over `background`, 3 a pixel.

@@ -42,7 +42,7 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 struct Sums {
   double absolute = 0, foreground = 0, squares = 0, silhouette = 0, interior = 0, ssim = 0, impostor = 0;
   double coverage = 0, referenceCoverage = 0;
-  uint64_t solid = 0, holes = 0, leaks = 0;
+  uint64_t solid = 0, holes = 0, leaks = 0, drawn = 0;
   std::vector<float> largest;  // of the three channels, foreground pixels
 };
 
@@ -54,6 +54,13 @@ void addCoverage(Sums& sums, double reference, double own) {
     if (own < kHoleCoverage) ++sums.holes;
   }
   if (reference == 0 && own > kLeakCoverage) ++sums.leaks;
+}
+
+void addImpostor(Sums& sums, const TestImage& test, size_t pixel) {
+  const int own = test.rgba[4 * pixel + 3];
+  if (own == 0) return;
+  ++sums.drawn;
+  if (!test.impostorCoverage.empty()) sums.impostor += std::min<double>(test.impostorCoverage[pixel], own) / own;
 }
 
 void addDifference(Sums& sums, double coverage, const float* a, const float* b) {
@@ -84,7 +91,7 @@ Sums sumUp(const ReferenceImage& reference, const TestImage& test, const Colour&
     addDifference(sums, coverage, &truth[3 * pixel], &own[3 * pixel]);
     if (coverage <= 0) continue;
     sums.ssim += ssim[pixel];
-    if (!test.impostorCoverage.empty()) sums.impostor += test.impostorCoverage[pixel] / 255.0;
+    addImpostor(sums, test, pixel);
   }
   return sums;
 }
@@ -119,7 +126,7 @@ Metrics measure(const ReferenceImage& reference, const TestImage& test, const Co
   metrics.holeRate = ratio(static_cast<double>(sums.holes), static_cast<double>(sums.solid));
   metrics.leakRate = ratio(static_cast<double>(sums.leaks), foreground);
   metrics.coverageBias = sums.referenceCoverage > 0 ? sums.coverage / sums.referenceCoverage - 1 : 0;
-  metrics.impostorShare = ratio(sums.impostor, foreground);
+  metrics.impostorShare = ratio(sums.impostor, static_cast<double>(sums.drawn));
   metrics.silhouetteShare = foreground > 0 ? ratio(sums.silhouette, sums.absolute) : 0;
   metrics.interiorShare = foreground > 0 ? ratio(sums.interior, sums.absolute) : 0;
   return metrics;

@@ -17,17 +17,17 @@ inline constexpr double kHoleCoverage = 0.5;             // ... and is not
 inline constexpr double kLeakCoverage = 0.02;            // a pixel that must be empty and is covered more than this
 
 struct Metrics {
-  double paperErrorSum = 0;    // sum of |dR| + |dG| + |dB| over the whole image
-  double paperError = 0;       // the same / pixels of the rectangle (Saraiva, Oliveira, Madeiras Pereira, WSCG 2010)
-  double mae = 0;              // mean |d| over the foreground's pixels and channels
-  double psnr = 0;             // dB, from the mean d^2 over the foreground's pixels and channels; at most kMaxPsnrDb
-  double ssim = 0;             // structuralSimilarity(), mean over the foreground
-  double p95 = 0;              // of max(|dR|, |dG|, |dB|) over the foreground, nearest rank
+  double paperErrorSum = 0;  // sum of |dR| + |dG| + |dB| over the whole image
+  double paperError = 0;     // the same / pixels of the rectangle (Saraiva, Oliveira, Madeiras Pereira, WSCG 2010)
+  double mae = 0;            // mean |d| over the foreground's pixels and channels
+  double psnr = 0;           // dB, from the mean d^2 over the foreground's pixels and channels; at most kMaxPsnrDb
+  double ssim = 0;           // structuralSimilarity(), mean over the foreground
+  double p95 = 0;            // of max(|dR|, |dG|, |dB|) over the foreground, nearest rank
   double p99 = 0;
   double holeRate = 0;         // of pixels with reference coverage > .999, the share whose own coverage is < .5
   double leakRate = 0;         // pixels with reference coverage 0 and own > .02, per foreground pixel
   double coverageBias = 0;     // own coverage / reference coverage - 1, each summed over the image
-  double impostorShare = 0;    // share of the foreground drawn by impostors
+  double impostorShare = 0;    // mean of impostorCoverage / own coverage over foreground pixels with own coverage > 0
   double silhouetteShare = 0;  // of paperErrorSum, what lies where reference coverage is in (0, 1)
   double interiorShare = 0;    // ... where it is 1; the rest lies where it is 0
   uint64_t foregroundPixels = 0;

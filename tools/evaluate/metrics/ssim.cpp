@@ -67,8 +67,8 @@ std::vector<double> structuralSimilarity(std::span<const float> a, std::span<con
   std::vector<double> similarity(pixels);
   for (size_t i = 0; i < pixels; ++i) {
     const double mm = meanA[i] * meanB[i], aa = meanA[i] * meanA[i], bb = meanB[i] * meanB[i];
-    similarity[i] = (2 * mm + kC1) * (2 * (cross[i] - mm) + kC2) /
-                    ((aa + bb + kC1) * (squareA[i] - aa + squareB[i] - bb + kC2));
+    similarity[i] =
+        (2 * mm + kC1) * (2 * (cross[i] - mm) + kC2) / ((aa + bb + kC1) * (squareA[i] - aa + squareB[i] - bb + kC2));
   }
   return similarity;
 }

@@ -72,7 +72,8 @@ nlohmann::ordered_json vectorJson(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 std::vector<Camera> autoCameras(const Model& model, const Viewpoints& viewpoints, int count) {
   const glm::dvec3 min = model.grid.worldFromGrid(model.bounds.min), max = model.grid.worldFromGrid(model.bounds.max);
   const glm::dvec3 centre = (min + max) * 0.5;
-  const double radius = std::max(glm::length(max - min) * 0.5, model.grid.step());
+  // A model without extent still has a root cube of some size.
+  const double radius = std::max(glm::length(max - min) * 0.5, model.grid.side * 0.25);
   const auto candidates = betweenViews(candidateDirections(model.settings.up), viewpoints);
   std::vector<Camera> cameras;
   for (const glm::dvec3& direction : spreadDirections(candidates, count)) {

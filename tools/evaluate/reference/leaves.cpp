@@ -20,8 +20,7 @@ struct Walk {
     const CellRecord& cell = directory.cells[index];
     if (cell.content.empty()) return;
     const Grid& grid = directory.model.grid;
-    const auto bounds =
-        screenBounds(view, grid.worldFromGrid(cell.content.min), grid.worldFromGrid(cell.content.max));
+    const auto bounds = screenBounds(view, grid.worldFromGrid(cell.content.min), grid.worldFromGrid(cell.content.max));
     if (!bounds) return;
     if (cell.childCount == 0) {
       if (cell.geometryPage != kNone) leaves.push_back({index, *bounds});

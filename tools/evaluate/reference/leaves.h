@@ -10,8 +10,8 @@
 namespace farcell {
 
 struct VisibleLeaf {
-  uint32_t cell = 0;     // index into Directory::cells
-  ScreenBounds bounds;   // of its content
+  uint32_t cell = 0;    // index into Directory::cells
+  ScreenBounds bounds;  // of its content
 };
 
 // Front to back: along any ray from the eye, no leaf comes after one that lies behind it. Leaves without triangles and

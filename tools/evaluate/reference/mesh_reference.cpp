@@ -50,8 +50,8 @@ uint32_t cornerNormal(const InputTriangle& triangle, size_t corner) {
   const glm::dvec3 given(triangle.normals[corner]);
   if (const double length = glm::length(given); std::isfinite(length) && length > 0)
     return octahedralBits(glm::vec3(given / length));
-  const glm::dvec3 face = glm::cross(triangle.positions[1] - triangle.positions[0],
-                                     triangle.positions[2] - triangle.positions[0]);
+  const glm::dvec3 face =
+      glm::cross(triangle.positions[1] - triangle.positions[0], triangle.positions[2] - triangle.positions[0]);
   const double length = glm::length(face);
   return octahedralBits(length > 0 ? glm::vec3(face / length) : glm::vec3(0, 0, 1));
 }

@@ -51,8 +51,7 @@ glm::vec3 normalAt(const LocalTriangles& geometry, glm::uvec3 corners, float u, 
 }
 
 glm::vec3 albedoAt(const LocalTriangles& geometry, glm::uvec3 corners, float u, float v) {
-  if (geometry.colours.empty())
-    return glm::vec3(kDefaultAlbedo[0], kDefaultAlbedo[1], kDefaultAlbedo[2]) / 255.0f;
+  if (geometry.colours.empty()) return glm::vec3(kDefaultAlbedo[0], kDefaultAlbedo[1], kDefaultAlbedo[2]) / 255.0f;
   return interpolate(geometry.colours, corners, u, v, colourFromBytes);
 }
 

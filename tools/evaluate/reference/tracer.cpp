@@ -76,8 +76,8 @@ class SampleImage::Packet {
 
   const TracedGeometry& geometry_;
   const ReferenceView& view_;
-  const double start_;     // depth at which rays begin, local
-  const glm::dvec3 eye_;   // local
+  const double start_;    // depth at which rays begin, local
+  const glm::dvec3 eye_;  // local
   const int perAxis_;
   const glm::vec3 light_;
   RTCIntersectContext context_;
@@ -118,7 +118,8 @@ void SampleImage::traceRows(const TracedGeometry& geometry, const ScreenBounds& 
 void SampleImage::trace(std::span<const TracedGeometry> geometries, int threads) {
   std::vector<std::optional<ScreenBounds>> bounds;
   for (const TracedGeometry& geometry : geometries)
-    bounds.push_back(geometry.scene ? screenBounds(view_, geometry.triangles.min, geometry.triangles.max) : std::nullopt);
+    bounds.push_back(geometry.scene ? screenBounds(view_, geometry.triangles.min, geometry.triangles.max)
+                                    : std::nullopt);
   const auto bands = static_cast<size_t>((view_.height + kBandRows - 1) / kBandRows);
   parallelFor(bands, threads, [&](size_t band, int) {
     const int row = static_cast<int>(band) * kBandRows;

@@ -70,9 +70,9 @@ std::optional<ScreenBounds> screenBounds(const ReferenceView& view, glm::dvec3 m
     x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
   }
   // A hundredth of a pixel is far above any rounding here.
-  const ScreenBounds bounds{clampedPixel(std::floor(x0 - .01), view.width), clampedPixel(std::floor(y0 - .01), view.height),
-                            clampedPixel(std::ceil(x1 + .01), view.width), clampedPixel(std::ceil(y1 + .01), view.height),
-                            nearest};
+  const ScreenBounds bounds{
+      clampedPixel(std::floor(x0 - .01), view.width), clampedPixel(std::floor(y0 - .01), view.height),
+      clampedPixel(std::ceil(x1 + .01), view.width), clampedPixel(std::ceil(y1 + .01), view.height), nearest};
   if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return std::nullopt;
   return bounds;
 }

@@ -19,7 +19,8 @@ struct ReferenceView {
 
 ReferenceView referenceView(const Camera& camera, int width, int height);
 
-// World direction through a screen point; its part along the view direction is 1, so that eye + d * direction has depth d.
+// World direction through a screen point; its part along the view direction is 1, so that eye + d * direction has depth
+// d.
 glm::dvec3 rayDirection(const ReferenceView& view, glm::dvec2 screen);
 
 // Pixels [x0, x1) x [y0, y1), within the image.

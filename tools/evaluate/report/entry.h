@@ -24,13 +24,13 @@ struct Entry {
   std::string camera;
   RendererPlan renderer;
   Metrics metrics;
-  FrameTimes frame;             // wall
-  double cpuMs = 0;             // median, whole process
-  uint64_t triangles = 0;       // drawn
-  uint64_t impostors = 0;       // cells drawn as impostors
+  FrameTimes frame;        // wall
+  double cpuMs = 0;        // median, whole process
+  uint64_t triangles = 0;  // drawn
+  uint64_t impostors = 0;  // cells drawn as impostors
   uint64_t texels = 0;
-  uint64_t bytesRead = 0;       // of the cold frame: nothing was resident
-  double diameters = 0;         // the eye from the bounding sphere's surface; negative inside
+  uint64_t bytesRead = 0;                 // of the cold frame: nothing was resident
+  double diameters = 0;                   // the eye from the bounding sphere's surface; negative inside
   std::optional<double> ratioToFull1spp;  // of paperError; nothing where the baseline has no error to compare with
 };
 

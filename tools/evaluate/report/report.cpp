@@ -17,10 +17,14 @@ using Json = nlohmann::ordered_json;
 
 const char* modeName(RenderMode mode) {
   switch (mode) {
-    case RenderMode::automatic: return "auto";
-    case RenderMode::impostors: return "impostors";
-    case RenderMode::triangles: return "triangles";
-    case RenderMode::full: return "full";
+    case RenderMode::automatic:
+      return "auto";
+    case RenderMode::impostors:
+      return "impostors";
+    case RenderMode::triangles:
+      return "triangles";
+    case RenderMode::full:
+      return "full";
   }
   return "";
 }
@@ -174,20 +178,20 @@ std::string optionalText(const std::optional<double>& value) { return value ? fm
 
 std::string entryLine(const Entry& entry) {
   const Metrics& m = entry.metrics;
-  return fmt::format("{:<20} {:<10} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} {:>6}\n",
-                     printable(entry.camera), entry.renderer.name, m.paperError, optionalText(entry.ratioToFull1spp), m.psnr, m.ssim,
-                     100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs,
-                     entry.triangles, entry.impostors);
+  return fmt::format(
+      "{:<20} {:<10} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} {:>6}\n",
+      printable(entry.camera), entry.renderer.name, m.paperError, optionalText(entry.ratioToFull1spp), m.psnr, m.ssim,
+      100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs, entry.triangles,
+      entry.impostors);
 }
 
 std::string summaryLine(const RendererSummary& summary) {
-  return fmt::format("{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9.2f} {:>9.3f}\n", summary.renderer,
-                     summary.rendererClass, optionalText(summary.all.ratioToFull1spp),
-                     optionalText(summary.all.worstRatio),
-                     fmt::format("{} ({})", optionalText(summary.mostlyImpostors.ratioToFull1spp),
-                                 summary.mostlyImpostors.cameras),
-                     fmt::format("{} ({})", optionalText(summary.elsewhere.ratioToFull1spp), summary.elsewhere.cameras),
-                     summary.medianFrameMs, 100 * summary.worstHoleRate);
+  return fmt::format(
+      "{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9.2f} {:>9.3f}\n", summary.renderer, summary.rendererClass,
+      optionalText(summary.all.ratioToFull1spp), optionalText(summary.all.worstRatio),
+      fmt::format("{} ({})", optionalText(summary.mostlyImpostors.ratioToFull1spp), summary.mostlyImpostors.cameras),
+      fmt::format("{} ({})", optionalText(summary.elsewhere.ratioToFull1spp), summary.elsewhere.cameras),
+      summary.medianFrameMs, 100 * summary.worstHoleRate);
 }
 
 }  // namespace
@@ -207,9 +211,9 @@ std::string reportCsv(const std::vector<Entry>& entries) {
 }
 
 std::string reportTable(const std::vector<Entry>& entries) {
-  std::string text =
-      fmt::format("{:<20} {:<10} {:>8} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n", "camera", "renderer",
-                  "error", "ratio", "psnr", "ssim", "hole %", "leak %", "cover %", "imp.", "frame ms", "triangles", "cells");
+  std::string text = fmt::format("{:<20} {:<10} {:>8} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n",
+                                 "camera", "renderer", "error", "ratio", "psnr", "ssim", "hole %", "leak %", "cover %",
+                                 "imp.", "frame ms", "triangles", "cells");
   for (const Entry& entry : entries) text += entryLine(entry);
   text += fmt::format("\n{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9} {:>9}\n", "renderer", "class", "ratio", "worst",
                       "impostors >= .8 (n)", "elsewhere (n)", "frame ms", "hole %");

@@ -13,7 +13,7 @@ namespace farcell {
 
 // How the figures were made.
 struct ReportFacts {
-  std::string packName;            // file name
+  std::string packName;  // file name
   uint64_t packBytes = 0;
   const Directory* directory = nullptr;  // of the pack
   int width = 0;
@@ -21,10 +21,10 @@ struct ReportFacts {
   int timedFrames = 0;
   Colour background{};
   std::string glRenderer;
-  std::string referenceKind;       // "pack" or "mesh"
+  std::string referenceKind;  // "pack" or "mesh"
   int referenceSamples = 0;
-  double referenceSeconds = 0;     // all cameras
-  bool complete = true;            // false: interrupted, some cameras are missing
+  double referenceSeconds = 0;  // all cameras
+  bool complete = true;         // false: interrupted, some cameras are missing
 };
 
 // entries[] and summary{} hold what the project's contract lists and a little more; every figure is finite. A ratio

@@ -25,12 +25,11 @@ struct RendererSummary {
   RatioSummary all;
   RatioSummary mostlyImpostors;  // entries with impostorShare >= kMostlyImpostors
   RatioSummary elsewhere;
-  double medianFrameMs = 0;      // median over cameras of the medians
+  double medianFrameMs = 0;  // median over cameras of the medians
   double worstHoleRate = 0;
 };
 
-// Sets each entry's ratio from the baseline entry of the same camera. A camera that occurs twice must have been given
-// two names.
+// Sets each entry's ratio from the baseline entry of the same camera. REQUIRES: no two cameras of one name.
 void setRatios(std::vector<Entry>& entries);
 
 // In order of first occurrence. Entries must have their ratios.

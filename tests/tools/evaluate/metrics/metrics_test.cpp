@@ -126,8 +126,8 @@ TEST(Metrics, TheErrorIsSplitBetweenSilhouetteAndInterior) {
   setReference(reference, 0, 0, {50, 50, 50}, 0.5f);
   setReference(reference, 3, 0, kBlack, 0);
   OwnedTest test = solidTest(4, 1, {100, 100, 100, 255});
-  test.at(0, 0)[0] = 44;  // 6, silhouette; its other channels 50 too bright
-  test.at(1, 0)[0] = 94;  // 6, interior
+  test.at(0, 0)[0] = 44;                                       // 6, silhouette; its other channels 50 too bright
+  test.at(1, 0)[0] = 94;                                       // 6, interior
   test.at(3, 0)[0] = test.at(3, 0)[1] = test.at(3, 0)[2] = 4;  // 12 where nothing should be
   const Metrics m = measure(reference, test.view(), kBlack);
   const double sum = (6 + 50 + 50) + 6 + 12;
@@ -145,12 +145,15 @@ TEST(Metrics, PercentilesAreTheNearestRank) {
   EXPECT_EQ(m.p99, 99);
 }
 
-TEST(Metrics, ImpostorShareIsTheMeanOverTheForeground) {
-  ReferenceImage reference = solidReference(4, 1, {0, 0, 0});
-  setReference(reference, 3, 0, kBlack, 0);
-  OwnedTest test = solidTest(4, 1, {0, 0, 0, 255});
-  test.impostor = {255, 0, 51, 255};
-  EXPECT_NEAR(measure(reference, test.view(), kBlack).impostorShare, (1 + 0 + 0.2) / 3, 1e-12);
+TEST(Metrics, ImpostorShareIsTheirPartOfWhatIsDrawnInEachForegroundPixel) {
+  ReferenceImage reference = solidReference(6, 1, {0, 0, 0});
+  setReference(reference, 1, 0, kBlack, 0.25f);
+  setReference(reference, 5, 0, kBlack, 0);
+  OwnedTest test = solidTest(6, 1, {0, 0, 0, 255});
+  test.at(1, 0)[3] = 60;  // a thin thing drawn by impostors alone
+  test.at(3, 0)[3] = 0;   // a hole is nobody's
+  test.impostor = {255, 60, 51, 0, 0, 255};
+  EXPECT_NEAR(measure(reference, test.view(), kBlack).impostorShare, (1 + 1 + 0.2 + 0) / 4, 1e-12);
 }
 
 TEST(Metrics, AReferenceWithoutForegroundGivesFiniteFigures) {

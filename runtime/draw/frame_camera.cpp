@@ -1,0 +1,65 @@
+#include "runtime/draw/frame_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace farcell {
+namespace {
+
+constexpr double kMaxEyeSteps = 1e30;            // squares stay finite in float
+constexpr double kMaxIntegerSteps = 1073741824;  // 2^30: differences to grid points fit 32 bits
+constexpr double kMinNear = 1.0 / (1 << 20);     // root sides
+
+double nearestContentSteps(const Directory& directory, const Cut& cut, glm::dvec3 eye) {
+  double nearest = kMaxEyeSteps;
+  for (const CutEntry& entry : cut.entries) {
+    const GridBox& box = directory.cells[entry.cell].content;
+    glm::dvec3 point;
+    for (int axis = 0; axis < 3; ++axis)
+      point[axis] = std::clamp(eye[axis], static_cast<double>(box.min[axis]), static_cast<double>(box.max[axis]));
+    nearest = std::min(nearest, glm::length(eye - point));
+  }
+  return nearest;
+}
+
+glm::vec4 row(glm::dvec3 v) { return glm::vec4(glm::vec3(v), 0.0f); }
+
+}  // namespace
+
+FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, int width, int height, const Cut& cut,
+                            glm::dvec2 jitterPx) {
+  const Model& model = directory.model;
+  const CameraAxes axes = cameraAxes(camera);
+  const double tanY = std::tan(camera.fovYRad / 2);
+  const double tanX = tanY * width / height;
+  const double rootSidesPerStep = std::ldexp(1.0, -model.grid.bits);
+  FrameCamera frame;
+  frame.pixelAngle = 2 * tanY / height;
+  glm::ivec3 whole;
+  glm::dvec3 fraction;
+  for (int axis = 0; axis < 3; ++axis) {
+    frame.eyeSteps[axis] =
+        std::clamp((camera.position[axis] - model.grid.origin[axis]) / model.grid.step(), -kMaxEyeSteps, kMaxEyeSteps);
+    whole[axis] = static_cast<int>(std::floor(std::clamp(frame.eyeSteps[axis], -kMaxIntegerSteps, kMaxIntegerSteps)));
+    fraction[axis] = frame.eyeSteps[axis] - whole[axis];
+  }
+  const glm::dvec3 clipW = -axes.back * rootSidesPerStep;
+  const glm::dvec3 clipX = axes.right * (rootSidesPerStep / tanX) + clipW * (2 * jitterPx.x / width);
+  const glm::dvec3 clipY = axes.up * (rootSidesPerStep / tanY) + clipW * (2 * jitterPx.y / height);
+  // The nearest content may lie in a corner of the picture, where the depth is less than the distance.
+  const double cosCorner = 1 / std::sqrt(1 + tanX * tanX + tanY * tanY);
+  const double nearest = nearestContentSteps(directory, cut, frame.eyeSteps) * rootSidesPerStep;
+  const double near = std::max(kMinNear, 0.5 * cosCorner * nearest);
+  const int imageSize = model.settings.imageSize;
+  frame.uniforms = {row(clipX),
+                    row(clipY),
+                    row(clipW),
+                    glm::ivec4(whole, 0),
+                    glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
+                    glm::vec4(sunDirection(model.settings.up), 0.0f),
+                    glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize), 0, 0)};
+  return frame;
+}
+
+}  // namespace farcell

@@ -1,0 +1,54 @@
+// Draws a cut into the bound target: makes cells resident, in portions where they do not all fit.
+#pragma once
+
+#include <cstdint>
+
+#include "cache/base/result.h"
+#include "cache/pack/pack_file.h"
+#include "cache/schema/viewpoints.h"
+#include "runtime/draw/frame_camera.h"
+#include "runtime/draw/geometry_store.h"
+#include "runtime/draw/impostor_kind.h"
+#include "runtime/draw/view_store.h"
+#include "runtime/gl/program.h"
+
+namespace farcell {
+
+struct PaintCounts {
+  uint64_t impostors = 0;  // cells drawn as impostors
+  uint64_t texels = 0;     // of their views
+  uint64_t bytesRead = 0;  // from the pack
+};
+
+class FramePainter {
+ public:
+  // REQUIRES: a current context; `pack` and `viewpoints` outlive the painter.
+  static Result<FramePainter> create(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes);
+
+  // Triangles first, opaque; then the impostors, back to front, over them.
+  Result<> paint(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, PaintCounts& counts);
+
+ private:
+  struct Programs {
+    GlProgram triangles;
+    GlProgram flat;
+    GlProgram depthCorrected;
+  };
+  FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes, Programs programs);
+  Result<> paintTriangles(const Cut& cut, PaintCounts& counts);
+  Result<> paintImpostors(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, PaintCounts& counts);
+  void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, ImpostorKind kind);
+  Result<ViewImage> readView(uint32_t cell, uint32_t view, PaintCounts& counts) const;
+
+  const PackFile& pack_;
+  const Viewpoints& viewpoints_;
+  Programs programs_;
+  GeometryStore geometry_;
+  ViewStore views_;
+  GlBuffer uniforms_;
+  GlBuffer instances_;
+  GlBuffer corners_;    // element indices of a box's faces, then of a rectangle
+  GlVertexArray bare_;  // no attributes: corners come from gl_VertexID
+};
+
+}  // namespace farcell

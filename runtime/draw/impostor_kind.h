@@ -1,0 +1,11 @@
+// How an impostor is drawn.
+#pragma once
+
+namespace farcell {
+
+enum class ImpostorKind {
+  flat,            // the billboard of the 2010 paper: one view on a plane through the middle of the cell's content
+  depthCorrected,  // kind A: one view, the ray corrected by its depth
+};
+
+}  // namespace farcell

@@ -1,0 +1,151 @@
+#include "runtime/renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <chrono>
+#include <optional>
+
+#include "cache/base/process.h"
+#include "runtime/draw/frame_camera.h"
+#include "runtime/draw/frame_painter.h"
+#include "runtime/draw/frame_target.h"
+
+namespace farcell {
+namespace {
+
+constexpr int kMultisamples = 4;
+
+// Four moves of the picture, in pixels, that place the usual rotated grid of four samples so that all 16 lie in
+// different columns and rows of a 16 x 16 grid.
+constexpr std::array<std::array<double, 2>, 4> kJitterPx = {
+    {{-1.5 / 16, 0.5 / 16}, {-0.5 / 16, -1.5 / 16}, {0.5 / 16, 1.5 / 16}, {1.5 / 16, -0.5 / 16}}};
+
+class Stopwatch {
+ public:
+  double wallMs() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double cpuMs() const { return (processCpuSeconds() - startCpuSeconds_) * 1e3; }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double startCpuSeconds_ = processCpuSeconds();
+};
+
+bool anyTriangles(const Cut& cut) {
+  for (const CutEntry& entry : cut.entries)
+    if (entry.representation == Representation::triangles) return true;
+  return false;
+}
+
+void addTo(std::vector<uint16_t>& sums, const std::vector<uint8_t>& values) {
+  sums.resize(values.size());
+  for (size_t i = 0; i < values.size(); ++i) sums[i] = static_cast<uint16_t>(sums[i] + values[i]);
+}
+
+std::vector<uint8_t> meanOf(const std::vector<uint16_t>& sums, int count) {
+  std::vector<uint8_t> result(sums.size());
+  for (size_t i = 0; i < sums.size(); ++i) result[i] = static_cast<uint8_t>((sums[i] + count / 2) / count);
+  return result;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  Impl(const PackFile& packFile, Viewpoints set) : pack(packFile), viewpoints(std::move(set)) {}
+
+  Result<> checkSettings(const RenderSettings& settings) const;
+  const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
+  Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
+                    glm::dvec2 jitterPx, FrameStats& stats);
+
+  const PackFile& pack;
+  const Viewpoints viewpoints;
+  int maxSize = 0;
+  std::optional<FramePainter> painter;
+  std::optional<FrameTarget> target;
+};
+
+Result<> Renderer::Impl::checkSettings(const RenderSettings& settings) const {
+  if (settings.width < 1 || settings.height < 1 || settings.width > maxSize || settings.height > maxSize)
+    return fail(ErrorKind::invalidArgument, "picture of {} x {}: each edge must lie in 1..{}", settings.width,
+                settings.height, maxSize);
+  if (settings.samplesPerPixel != 1 && settings.samplesPerPixel != 4 && settings.samplesPerPixel != 16)
+    return fail(ErrorKind::invalidArgument, "samples per pixel: expected 1, 4 or 16, found {}",
+                settings.samplesPerPixel);
+  return {};
+}
+
+const FrameTarget& Renderer::Impl::targetFor(int width, int height, int samples, bool withCoverage) {
+  if (!target || !target->matches(width, height, samples, withCoverage)) {
+    target.reset();
+    target.emplace(width, height, samples, withCoverage);
+  }
+  return *target;
+}
+
+Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut,
+                                  bool withCoverage, glm::dvec2 jitterPx, FrameStats& stats) {
+  // Impostors are filtered already: without triangles, more samples would only cost time.
+  const int samples = settings.samplesPerPixel > 1 && anyTriangles(cut) ? kMultisamples : 1;
+  const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
+  frame.begin();
+  PaintCounts counts;
+  const FrameCamera frameCamera =
+      makeFrameCamera(pack.directory(), camera, settings.width, settings.height, cut, jitterPx);
+  FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, counts));
+  frame.resolve();
+  glFinish();
+  stats.impostors = counts.impostors;
+  stats.texels = counts.texels;
+  stats.bytesRead += counts.bytesRead;
+  return {};
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create(GlContext&, const PackFile& pack, uint64_t residentBytes) {
+  FARCELL_ASSIGN(Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
+  auto impl = std::make_unique<Impl>(pack, std::move(viewpoints));
+  GLint samples = 0;
+  GLint textureSize = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_SAMPLES, &samples);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &textureSize);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  if (samples < kMultisamples)
+    return fail(ErrorKind::unsupported, "this OpenGL has {} samples per pixel, {} are needed", samples, kMultisamples);
+  impl->maxSize = std::min({textureSize, viewport[0], viewport[1]});
+  FARCELL_ASSIGN(FramePainter painter, FramePainter::create(pack, impl->viewpoints, residentBytes));
+  impl->painter.emplace(std::move(painter));
+  return Renderer(std::move(impl));
+}
+
+Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& settings, FrameImage* image) {
+  FARCELL_TRY(impl_->checkSettings(settings));
+  FrameStats stats;
+  std::vector<uint16_t> colourSums, coverageSums;
+  const int frames = settings.samplesPerPixel == 16 ? static_cast<int>(kJitterPx.size()) : 1;
+  for (int i = 0; i < frames; ++i) {
+    const auto& jitter = kJitterPx[static_cast<size_t>(i)];
+    const Stopwatch watch;
+    const Cut cut = selectCut(impl_->pack.directory(), impl_->viewpoints, camera, settings.width, settings.height,
+                              settings.selection);
+    FARCELL_TRY(impl_->drawOnce(camera, settings, cut, image != nullptr,
+                                frames > 1 ? glm::dvec2(jitter[0], jitter[1]) : glm::dvec2(0), stats));
+    stats.wallMs += watch.wallMs();
+    stats.cpuMs += watch.cpuMs();
+    stats.triangles = cut.triangles;
+    if (image == nullptr) continue;
+    addTo(colourSums, impl_->target->readColour());
+    addTo(coverageSums, impl_->target->readCoverage());
+  }
+  if (image != nullptr)
+    *image = {settings.width, settings.height, meanOf(colourSums, frames), meanOf(coverageSums, frames)};
+  return stats;
+}
+
+}  // namespace farcell

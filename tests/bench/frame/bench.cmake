@@ -1,0 +1,1 @@
+farcell_program(tests/bench/frame bench_frame DEPS farcell_runtime)

@@ -1,0 +1,321 @@
+// A directory whose checksums are right but whose fields lie: only the reader's own checks can refuse it.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "tests/cache/pack/samples.h"
+
+namespace farcell {
+namespace {
+
+using samples::Bytes;
+using samples::TemporaryFile;
+
+class LyingDirectory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    samples::write(samples::fullPack(), file_.path());
+    bytes_ = samples::readAll(file_.path());
+    const Result<PackFile> pack = PackFile::open(file_.path());
+    ASSERT_TRUE(pack.has_value());
+    directory_ = pack->directory();
+    const PageRecord& last = directory_.pages.back();
+    directoryOffset_ = alignedUp(last.offsetBytes + last.storedBytes);
+  }
+
+  Result<PackFile> reopen(const Directory& directory) { return reopen(directory, encodeDirectory(directory)); }
+  Result<PackFile> reopen(const Directory& directory, const Bytes& encoded) {
+    samples::writeAll(file_.path(), samples::withDirectory(bytes_, directory, directoryOffset_, encoded));
+    return PackFile::open(file_.path());
+  }
+
+  // Opens the pack after `change`; it must be refused for that reason.
+  void expectRefused(const char* what, const std::function<void(Directory&)>& change, const std::string& reason = "") {
+    SCOPED_TRACE(what);
+    Directory directory = directory_;
+    change(directory);
+    const Result<PackFile> pack = reopen(directory);
+    ASSERT_FALSE(pack.has_value());
+    EXPECT_EQ(pack.error().kind, ErrorKind::corrupt);
+    for (const std::string& part :
+         {file_.path().string() + ": offset ", std::string("expected "), std::string("found "), reason})
+      EXPECT_NE(pack.error().message.find(part), std::string::npos) << pack.error().message;
+  }
+
+  TemporaryFile file_{"lying.far"};
+  Bytes bytes_;
+  Directory directory_;
+  uint64_t directoryOffset_ = 0;
+};
+
+TEST_F(LyingDirectory, IsAcceptedWhenItTellsTheTruth) {
+  const Result<PackFile> pack = reopen(directory_);
+  ASSERT_TRUE(pack.has_value()) << pack.error().message;
+  EXPECT_TRUE(pack->verify(10, nullptr).empty());
+  EXPECT_EQ(samples::readAll(file_.path()), bytes_);
+}
+
+TEST_F(LyingDirectory, IsRefusedForItsGrid) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double side : {0.0, -1.0, kNan, kInfinity, std::numeric_limits<double>::denorm_min()})
+    expectRefused(
+        "side", [&](Directory& d) { d.model.grid.side = side; }, "a side above 0");
+  for (const double origin : {kNan, kInfinity, -kInfinity})
+    expectRefused(
+        "origin", [&](Directory& d) { d.model.grid.origin.y = origin; }, "a finite grid");
+  expectRefused(
+      "sum", [](Directory& d) { d.model.grid.side = d.model.grid.origin.x = 1.7e308; }, "a finite grid");
+  for (const int bits : {0, -1, 15, 25, 64, INT32_MAX})
+    expectRefused(
+        "bits", [&](Directory& d) { d.model.grid.bits = bits; }, "a grid of 16 to 24 bits");
+  expectRefused(
+      "bounds", [](Directory& d) { d.model.bounds.max.z = (1 << 20) + 1; }, "inside the root cube");
+  expectRefused(
+      "bounds", [](Directory& d) { d.model.bounds.min.x = -1; }, "inside the root cube");
+}
+
+TEST_F(LyingDirectory, IsRefusedForItsSettings) {
+  for (const int views : {0, -42, 13, 41, 2562, INT32_MAX})
+    expectRefused(
+        "views", [&](Directory& d) { d.model.settings.views = views; }, "views");
+  for (const int size : {0, -16, 8, 24, 127, 2048, INT32_MIN})
+    expectRefused(
+        "image size", [&](Directory& d) { d.model.settings.imageSize = size; }, "a power of two");
+  for (const int samples : {0, -4, 2, 9, 256})
+    expectRefused(
+        "samples", [&](Directory& d) { d.model.settings.samples = samples; }, "samples");
+  expectRefused(
+      "leaf", [](Directory& d) { d.model.settings.leafTriangles = 0; }, "triangle a leaf");
+  for (const int level : {-1, 16})
+    expectRefused(
+        "max level", [&](Directory& d) { d.model.settings.maxLevel = level; }, "levels");
+  for (const int level : {-2, 16})
+    expectRefused(
+        "fixed level", [&](Directory& d) { d.model.settings.fixedLevel = level; }, "levels");
+  expectRefused(
+      "up", [](Directory& d) { d.model.settings.up = static_cast<UpAxis>(3); }, "up axis");
+  for (const double unit :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    expectRefused(
+        "unit", [&](Directory& d) { d.model.settings.metresPerUnit = unit; }, "a unit");
+}
+
+TEST_F(LyingDirectory, IsRefusedForItsTree) {
+  expectRefused(
+      "no cells", [](Directory& d) { d.cells.clear(); }, "a root cell");
+  expectRefused(
+      "root key",
+      [](Directory& d) {
+        d.cells[0].key = {1, 0, 0, 0};
+      },
+      "cell 0");
+  expectRefused(
+      "root's parent", [](Directory& d) { d.cells[0].parent = 0; }, "no parent");
+  expectRefused(
+      "nine children", [](Directory& d) { d.cells[0].childCount = 9; }, "cell 0");
+  expectRefused(
+      "too many children", [](Directory& d) { d.cells[0].childCount = 3; }, "cell 0");
+  expectRefused(
+      "an orphan", [](Directory& d) { d.cells[0].childCount = 1; }, "another's child");
+  expectRefused(
+      "itself as child", [](Directory& d) { d.cells[0].firstChild = 0; }, "cell 0");
+  expectRefused(
+      "child far away", [](Directory& d) { d.cells[0].firstChild = kNone - 1; }, "cell 0");
+  expectRefused(
+      "a leaf with a first child", [](Directory& d) { d.cells[1].firstChild = 0; }, "cell 1");
+  expectRefused(
+      "another parent", [](Directory& d) { d.cells[2].parent = 1; }, "parent 0");
+  expectRefused(
+      "no parent", [](Directory& d) { d.cells[2].parent = kNone; }, "parent 0");
+  expectRefused(
+      "level skipped", [](Directory& d) { d.cells[1].key.level = 2; }, "a child of");
+  expectRefused(
+      "level zero", [](Directory& d) { d.cells[1].key.level = 0; }, "a child of");
+  expectRefused(
+      "level huge", [](Directory& d) { d.cells[1].key.level = 40; }, "a child of");
+  expectRefused(
+      "key outside", [](Directory& d) { d.cells[2].key.x = 2; }, "a child of");
+  expectRefused(
+      "twins", [](Directory& d) { d.cells[2].key = d.cells[1].key; }, "a cell after");
+  expectRefused(
+      "order", [](Directory& d) { std::swap(d.cells[1].key, d.cells[2].key); }, "a cell after");
+}
+
+TEST_F(LyingDirectory, IsRefusedForItsContent) {
+  expectRefused(
+      "outside its cube", [](Directory& d) { d.cells[2].content.min.x -= 1; }, "inside its cube");
+  expectRefused(
+      "outside its parent's", [](Directory& d) { d.cells[2].content.max.y = 1001; }, "its parent's");
+  expectRefused(
+      "outside the root", [](Directory& d) { d.cells[0].content.min.z = -1; }, "inside its cube");
+  expectRefused(
+      "empty with triangles", [](Directory& d) { d.cells[1].content = {}; }, "a box around 1 triangles");
+}
+
+TEST_F(LyingDirectory, IsRefusedForWhatItsCellsSayOfPages) {
+  expectRefused(
+      "geometry out of range", [](Directory& d) { d.cells[1].geometryPage = 5; }, "its own geometry");
+  expectRefused(
+      "geometry of another", [](Directory& d) { d.cells[1].geometryPage = 3; }, "its own geometry");
+  expectRefused(
+      "geometry that is views", [](Directory& d) { d.cells[1].geometryPage = 0; }, "its own geometry");
+  expectRefused(
+      "none", [](Directory& d) { d.cells[1].geometryPage = kNone; }, "a page for 1 triangles");
+  expectRefused(
+      "of an inner cell",
+      [](Directory& d) {
+        d.cells[0].geometryPage = 2;
+        d.pages[2].cell = 0;
+        d.cells[1].geometryPage = kNone;
+        d.cells[1].triangles = 0;
+      },
+      "of a leaf only");
+  expectRefused(
+      "views out of range", [](Directory& d) { d.cells[2].viewPageCount = 2; }, "pages of views below 5");
+  expectRefused(
+      "views that wrap", [](Directory& d) { d.cells[2].viewPageCount = kNone - 1; }, "pages of views below 5");
+  expectRefused(
+      "first without count", [](Directory& d) { d.cells[2].viewPageCount = 0; }, "pages of views below 5");
+  expectRefused(
+      "count without first", [](Directory& d) { d.cells[2].firstViewPage = kNone; }, "pages of views below 5");
+  expectRefused(
+      "views of another", [](Directory& d) { d.cells[2].firstViewPage = 1; }, "its own views");
+  expectRefused(
+      "geometry among views", [](Directory& d) { d.cells[0].viewPageCount = 3; }, "its own views");
+  expectRefused(
+      "a page no cell names", [](Directory& d) { d.cells[0].viewPageCount = 1; }, "page 1");
+}
+
+TEST_F(LyingDirectory, IsRefusedForItsPages) {
+  expectRefused("kind", [](Directory& d) { d.pages[0].kind = static_cast<PageKind>(3); });
+  expectRefused("cell", [](Directory& d) { d.pages[0].cell = 3; });
+  expectRefused(
+      "group", [](Directory& d) { d.pages[4].group = 12; }, "a rising group below 12");
+  expectRefused(
+      "group order", [](Directory& d) { std::swap(d.pages[0].group, d.pages[1].group); }, "a rising group");
+  expectRefused(
+      "group of geometry", [](Directory& d) { d.pages[2].group = 1; }, "group 0");
+  expectRefused(
+      "overlap", [](Directory& d) { d.pages[1].offsetBytes -= kPageAlignment; }, "at offset");
+  expectRefused(
+      "gap", [](Directory& d) { d.pages[1].offsetBytes += kPageAlignment; }, "at offset");
+  expectRefused(
+      "misaligned", [](Directory& d) { d.pages[1].offsetBytes += 8; }, "at offset");
+  expectRefused(
+      "in the header", [](Directory& d) { d.pages[0].offsetBytes = 0; }, "at offset");
+  expectRefused(
+      "no bytes", [](Directory& d) { d.pages[0].storedBytes = 0; }, "at offset");
+  expectRefused(
+      "past the directory", [](Directory& d) { d.pages[4].storedBytes = 2 * kPageAlignment; }, "at offset");
+  expectRefused(
+      "huge", [](Directory& d) { d.pages[4].storedBytes = ~0u; }, "at offset");
+  expectRefused(
+      "decodes to too much", [](Directory& d) { d.pages[1].decodedBytes = ~0u; }, "decoded bytes");
+  expectRefused(
+      "a page missing",
+      [](Directory& d) {
+        d.pages.pop_back();
+        d.cells[2].firstViewPage = kNone;
+        d.cells[2].viewPageCount = 0;
+      },
+      "pages up to the directory");
+  expectRefused(
+      "report of views", [](Directory& d) { ++d.report.impostorBytes; }, "bytes of views");
+  expectRefused(
+      "report of geometry", [](Directory& d) { --d.report.geometryBytes; }, "of geometry");
+}
+
+TEST_F(LyingDirectory, IsRefusedForHashesThatDiffer) {
+  Directory other = directory_;
+  other.model.settings.leafTriangles += 1;
+  const Result<PackFile> pack = reopen(other, encodeDirectory(directory_));
+  ASSERT_FALSE(pack.has_value());
+  EXPECT_NE(pack.error().message.find("settings of hash"), std::string::npos) << pack.error().message;
+}
+
+// What cell and page records claim of the pages themselves shows when the pages are read.
+TEST_F(LyingDirectory, IsFoundOutWhenAPageIsRead) {
+  const auto finding = [&](const std::function<void(Directory&)>& change) -> std::string {
+    Directory directory = directory_;
+    change(directory);
+    const Result<PackFile> pack = reopen(directory);
+    if (!pack) return "not even opened: " + pack.error().message;
+    const std::vector<Error> findings = pack->verify(10, nullptr);
+    return findings.size() == 1 ? findings[0].message : fmt::format("{} findings", findings.size());
+  };
+  const auto has = [](const std::string& message, const char* part) {
+    return message.find(part) != std::string::npos ? ::testing::AssertionSuccess()
+                                                   : ::testing::AssertionFailure() << message;
+  };
+  EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].triangles = 2; }), "page 2: expected 2 triangles, found 1"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].content.max.x = 999; }), "page 2: expected positions inside"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes += 4; }), "page 3: expected 76 decoded bytes"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes -= 4; }), "page 3: byte 0 of the page"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[0].checksum ^= 1; }), "page 0: expected checksum"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[4].group += 2; }), "page 4: expected views of group"));
+}
+
+TEST_F(LyingDirectory, IsRefusedAtEveryTruncationAndWithOneByteMore) {
+  Bytes encoded = encodeDirectory(directory_);
+  for (size_t length = 0; length < encoded.size(); ++length) {
+    DirectoryPlaces places;
+    const Bytes part(encoded.begin(), encoded.begin() + static_cast<ptrdiff_t>(length));
+    EXPECT_FALSE(decodeDirectory(part, 0, "pack", places).has_value()) << length;
+  }
+  encoded.push_back(std::byte{0});
+  DirectoryPlaces places;
+  EXPECT_FALSE(decodeDirectory(encoded, 0, "pack", places).has_value());
+}
+
+TEST_F(LyingDirectory, NeverBreaksTheReaderWhateverItsBytes) {
+  const Bytes encoded = encodeDirectory(directory_);
+  std::mt19937 random(1);
+  for (int round = 0; round < 3000; ++round) {
+    Bytes damaged = encoded;
+    for (uint32_t i = 0; i <= samples::below(random, 3); ++i)
+      damaged[samples::below(random, static_cast<uint32_t>(damaged.size()))] =
+          static_cast<std::byte>(random() % 4 ? random() % 5 : random());
+    DirectoryPlaces places;
+    const Result<Directory> decoded = decodeDirectory(damaged, 0, "pack", places);
+    if (!decoded) continue;
+    const Result<PackFile> pack = reopen(*decoded, damaged);
+    if (pack) (void)pack->verify(10, nullptr);
+  }
+}
+
+TEST_F(LyingDirectory, BelievesNoCountOfRecordsBeyondItsBytes) {
+  Directory small = directory_;
+  small.cells.clear();
+  small.pages.clear();
+  const Bytes encoded = encodeDirectory(small);
+  for (const size_t fromEnd : {8u, 4u}) {
+    Bytes changed = encoded;
+    for (size_t i = 0; i < 4; ++i) changed[changed.size() - fromEnd + i] = std::byte{0xfe};
+    DirectoryPlaces places;
+    EXPECT_FALSE(decodeDirectory(changed, 0, "pack", places).has_value());
+  }
+}
+
+TEST(Footer, WithARightChecksumIsStillCheckedAgainstTheFile) {
+  const Footer good{8192, 1000, 1, 2, 3, 8192 + 1000 + kFooterBytes};
+  const auto decode = [](const Footer& footer, uint64_t fileBytes) {
+    return decodeFooter(encodeFooter(footer), fileBytes, "pack");
+  };
+  EXPECT_TRUE(decode(good, good.fileBytes).has_value());
+  EXPECT_FALSE(decode(good, good.fileBytes + 1).has_value());
+  for (const uint64_t offset : {uint64_t{0}, uint64_t{8191}, uint64_t{12288}, uint64_t{1} << 63, ~uint64_t{0}}) {
+    Footer footer = good;
+    footer.directoryOffset = offset;
+    EXPECT_FALSE(decode(footer, footer.fileBytes).has_value()) << offset;
+  }
+  for (const uint64_t size : {uint64_t{0}, uint64_t{999}, uint64_t{1001}, ~uint64_t{0}}) {
+    Footer footer = good;
+    footer.directoryBytes = size;
+    EXPECT_FALSE(decode(footer, footer.fileBytes).has_value()) << size;
+  }
+}
+
+}  // namespace
+}  // namespace farcell

@@ -1,0 +1,244 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <limits>
+
+#include "cache/pack/zlib_stream.h"
+#include "tests/cache/pack/samples.h"
+
+namespace farcell {
+namespace {
+
+using samples::Bytes;
+
+constexpr uint32_t kViewCount = 42;
+constexpr uint32_t kImageSize = 64;
+constexpr size_t kPageHeaderBytes = 8;
+constexpr size_t kViewHeaderBytes = 28;
+
+ViewPage randomPage(uint32_t seed, bool normals, uint32_t imageSize = kImageSize) {
+  std::mt19937 random(seed);
+  ViewPage page;
+  for (uint32_t view = samples::below(random, 6); view < kViewCount; view += 1 + samples::below(random, 9)) {
+    page.views.push_back(samples::randomView(random, view, imageSize, normals, static_cast<int>(random() % 3)));
+    if (random() % 4 != 0) continue;
+    page.views.back() = {};
+    page.views.back().view = view;
+  }
+  return page;
+}
+
+Result<ViewPage> decode(std::span<const std::byte> bytes, const ViewPage& page) {
+  return decodeViewPage(Bytes(bytes.begin(), bytes.end()), {kViewCount, kImageSize, decodedSizeBytes(page)});
+}
+
+uint32_t number(std::span<const std::byte> bytes, size_t offset, size_t size) {
+  uint32_t value = 0;
+  for (size_t i = size; i-- > 0;) value = value << 8 | std::to_integer<uint32_t>(bytes[offset + i]);
+  return value;
+}
+
+void setNumber(Bytes& bytes, size_t offset, size_t size, uint32_t value) {
+  for (size_t i = 0; i < size; ++i) bytes[offset + i] = static_cast<std::byte>(value >> (8 * i));
+}
+
+// Decodes one view by FORMAT.md with zlib, given the page's header alone and no other view; none of the library's code.
+ViewImage plainlyDecoded(std::span<const std::byte> page, size_t index) {
+  const uint32_t views = number(page, 0, 4), planeCount = number(page, 4, 4);
+  const size_t header = kPageHeaderBytes + index * kViewHeaderBytes;
+  const size_t begin =
+      index == 0 ? kPageHeaderBytes + views * kViewHeaderBytes : number(page, header - kViewHeaderBytes + 24, 4);
+  const size_t end = number(page, header + 24, 4);
+  ViewImage view;
+  view.view = number(page, header, 4);
+  view.x0 = number(page, header + 4, 2);
+  view.y0 = number(page, header + 6, 2);
+  view.width = number(page, header + 8, 2);
+  view.height = number(page, header + 10, 2);
+  view.depthMin = std::bit_cast<float>(number(page, header + 12, 4));
+  view.depthMax = std::bit_cast<float>(number(page, header + 16, 4));
+  const uint32_t coding = number(page, header + 20, 4);
+  const size_t texels = size_t{view.width} * view.height;
+  if (texels == 0) {
+    EXPECT_EQ(begin, end);
+    return view;
+  }
+  std::vector<uint8_t> bytes(planeCount * texels + 1);
+  uLongf size = bytes.size();
+  EXPECT_EQ(uncompress(bytes.data(), &size, reinterpret_cast<const Bytef*>(page.data() + begin), end - begin), Z_OK);
+  EXPECT_EQ(size, planeCount * texels);
+
+  const bool asTexels = coding >> 28 == 0;
+  const auto value = [&](uint32_t plane, size_t x, size_t y) -> uint8_t& {
+    return bytes[asTexels && plane < 4 ? 4 * (y * view.width + x) + plane : plane * texels + y * view.width + x];
+  };
+  for (uint32_t plane = asTexels ? 4 : 0; plane < planeCount; ++plane) {
+    for (size_t y = 0; y < view.height; ++y) {
+      for (size_t x = 0; x < view.width; ++x) {
+        const int up = y > 0 ? value(plane, x, y - 1) : 0, left = x > 0 ? value(plane, x - 1, y) : 0;
+        const int predictions[4] = {0, up, left, (up + left) / 2};
+        value(plane, x, y) = static_cast<uint8_t>(value(plane, x, y) + predictions[coding >> (4 * plane) & 15]);
+      }
+    }
+  }
+  for (size_t y = 0; y < view.height; ++y) {
+    for (size_t x = 0; x < view.width; ++x) {
+      const uint8_t green = value(0, x, y);
+      view.rgba.push_back(static_cast<uint8_t>(value(1, x, y) + green));
+      view.rgba.push_back(green);
+      view.rgba.push_back(static_cast<uint8_t>(value(2, x, y) + green));
+      view.rgba.push_back(value(3, x, y));
+      view.depth.push_back(value(4, x, y));
+      for (uint32_t plane = 5; plane < planeCount; ++plane) view.normal.push_back(value(plane, x, y));
+    }
+  }
+  return view;
+}
+
+TEST(ViewPageCoding, ReturnsEveryRandomPageExactly) {
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE(seed);
+    const ViewPage page = randomPage(seed, seed % 2);
+    const Bytes bytes = encodeViewPage(page);
+    const auto decoded = decode(bytes, page);
+    ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
+    EXPECT_EQ(*decoded, page);
+    EXPECT_EQ(encodeViewPage(page), bytes);
+  }
+}
+
+TEST(ViewPageCoding, LetsADecoderOfItsOwnReadEachViewAlone) {
+  bool sawTexels = false, sawPlanes = false;
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const ViewPage page = randomPage(seed, seed % 2);
+    const Bytes bytes = encodeViewPage(page);
+    for (size_t i = page.views.size(); i-- > 0;) {
+      EXPECT_EQ(plainlyDecoded(bytes, i), page.views[i]) << i;
+      const uint32_t coding = number(bytes, kPageHeaderBytes + i * kViewHeaderBytes + 20, 4);
+      (coding >> 28 == 0 ? sawTexels : sawPlanes) = true;
+    }
+  }
+  EXPECT_TRUE(sawTexels && sawPlanes);
+}
+
+TEST(ViewPageCoding, HoldsNoViewsAndViewsOfNothing) {
+  ViewPage page;
+  EXPECT_EQ(decode(encodeViewPage(page), page), page);
+  page.views.resize(2);
+  page.views[1].view = 41;
+  EXPECT_EQ(decodedSizeBytes(page), 0u);
+  EXPECT_EQ(decode(encodeViewPage(page), page), page);
+}
+
+TEST(ViewPageCoding, HoldsTheSmallestAndTheLargestImage) {
+  ViewPage page;
+  page.views.resize(2);
+  page.views[0] = {
+      .view = 0, .x0 = 1023, .y0 = 1023, .width = 1, .height = 1, .rgba = {1, 2, 3, 4}, .depth = {9}, .normal = {}};
+  page.views[1] = {
+      .view = 1, .width = 1024, .height = 1024, .depthMin = -1, .depthMax = 1, .rgba = {}, .depth = {}, .normal = {}};
+  for (size_t i = 0; i < 1024 * 1024; ++i) {
+    for (size_t k = 0; k < 4; ++k) page.views[1].rgba.push_back(static_cast<uint8_t>(i / 1024 * k));
+    page.views[1].depth.push_back(static_cast<uint8_t>(i % 1024 / 4));
+  }
+  const auto decoded = decodeViewPage(encodeViewPage(page), {2, 1024, decodedSizeBytes(page)});
+  ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
+  EXPECT_TRUE(*decoded == page);
+}
+
+TEST(ViewPageCoding, TakesFewBytesForFlatAreasAndForGradients) {
+  std::mt19937 random(2);
+  for (const int kind : {1, 2}) {
+    ViewPage page;
+    page.views.push_back(samples::randomView(random, 0, 64, true, kind));
+    EXPECT_LT(encodeViewPage(page).size(), decodedSizeBytes(page) / (kind == 1 ? 2 : 10)) << kind;
+  }
+}
+
+TEST(ViewPageCoding, RefusesEveryTruncationAndOneByteMore) {
+  const ViewPage page = randomPage(3, true);
+  Bytes bytes = encodeViewPage(page);
+  for (size_t length = 0; length < bytes.size(); ++length) {
+    const auto decoded = decode(std::span(bytes).first(length), page);
+    ASSERT_FALSE(decoded.has_value()) << length;
+    EXPECT_EQ(decoded.error().kind, ErrorKind::corrupt);
+  }
+  bytes.push_back(std::byte{0});
+  EXPECT_FALSE(decode(bytes, page).has_value());
+}
+
+TEST(ViewPageCoding, RefusesWhatTheLimitsDoNotAllow) {
+  const ViewPage page = randomPage(4, false);
+  const Bytes bytes = encodeViewPage(page);
+  const uint32_t size = decodedSizeBytes(page), views = page.views.back().view + 1;
+  uint32_t reach = 0;
+  for (const ViewImage& view : page.views) reach = std::max({reach, view.x0 + view.width, view.y0 + view.height});
+  EXPECT_TRUE(decodeViewPage(bytes, {views, reach, size}).has_value());
+  EXPECT_FALSE(decodeViewPage(bytes, {views - 1, reach, size}).has_value());
+  EXPECT_FALSE(decodeViewPage(bytes, {views, reach - 1, size}).has_value());
+  EXPECT_FALSE(decodeViewPage(bytes, {views, reach, size - 1}).has_value());
+}
+
+// Byte ranges of a view's header and values that none of them may have here.
+TEST(ViewPageCoding, RefusesHeadersThatLie) {
+  ViewPage page;
+  std::mt19937 random(5);
+  page.views = {samples::randomView(random, 3, 32, false, 0), samples::randomView(random, 7, 32, false, 0)};
+  const Bytes bytes = encodeViewPage(page);
+  const auto refused = [&](size_t offset, size_t size, uint32_t value) {
+    Bytes changed = bytes;
+    setNumber(changed, offset, size, value);
+    return !decode(changed, page).has_value();
+  };
+  for (const uint32_t count : {0u, 1u, 3u, 43u, 1u << 31, ~0u}) EXPECT_TRUE(refused(0, 4, count)) << count;
+  for (const uint32_t planes : {0u, 4u, 6u, 7u, 8u, ~0u}) EXPECT_TRUE(refused(4, 4, planes)) << planes;
+  const size_t header = kPageHeaderBytes;
+  for (const uint32_t view : {7u, 8u, 42u, ~0u}) EXPECT_TRUE(refused(header, 4, view)) << view;
+  for (const size_t field : {4u, 6u}) EXPECT_TRUE(refused(header + field, 2, 64)) << field;
+  for (const size_t field : {8u, 10u})
+    for (const uint32_t extent : {0u, 65u, 65535u}) EXPECT_TRUE(refused(header + field, 2, extent)) << field;
+  const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
+  for (const size_t field : {12u, 16u}) EXPECT_TRUE(refused(header + field, 4, nan)) << field;
+  EXPECT_TRUE(refused(header + 16, 4, std::bit_cast<uint32_t>(-2.0f)));
+  for (const uint32_t coding : {0x20000000u, 0x00000001u, 0x10000004u, 0x10100000u, 0x00040000u})
+    EXPECT_TRUE(refused(header + 20, 4, coding)) << coding;
+  const uint32_t end = number(bytes, header + 24, 4);
+  for (const uint32_t wrong : {0u, end - 1, end + 1, static_cast<uint32_t>(bytes.size()), ~0u})
+    EXPECT_TRUE(refused(header + 24, 4, wrong)) << wrong;
+}
+
+TEST(ViewPageCoding, AllocatesNothingForAClaimNoDeflateStreamCanKeep) {
+  Bytes bytes(kPageHeaderBytes + kViewHeaderBytes + 100);
+  setNumber(bytes, 0, 4, 1);
+  setNumber(bytes, 4, 4, 5);
+  setNumber(bytes, kPageHeaderBytes + 8, 2, 1024);
+  setNumber(bytes, kPageHeaderBytes + 10, 2, 1024);
+  setNumber(bytes, kPageHeaderBytes + 24, 4, static_cast<uint32_t>(bytes.size()));
+  const auto decoded = decodeViewPage(bytes, {1, 1024, ~uint64_t{0}});
+  ASSERT_FALSE(decoded.has_value());
+  EXPECT_NE(decoded.error().message.find("the end of a stream"), std::string::npos) << decoded.error().message;
+}
+
+TEST(ViewPageCoding, SurvivesDamage) {
+  const ViewPage page = randomPage(6, true);
+  const Bytes bytes = encodeViewPage(page);
+  const auto headers = static_cast<uint32_t>(kPageHeaderBytes + page.views.size() * kViewHeaderBytes);
+  std::mt19937 random(6);
+  for (int round = 0; round < 20000; ++round) {
+    Bytes damaged = bytes;
+    const uint32_t reach = round % 2 ? headers : static_cast<uint32_t>(bytes.size());
+    for (uint32_t i = 0; i <= samples::below(random, 3); ++i)
+      damaged[samples::below(random, reach)] = static_cast<std::byte>(random());
+    const auto decoded = decode(damaged, page);
+    if (!decoded) continue;
+    ASSERT_LE(decodedSizeBytes(*decoded), decodedSizeBytes(page)) << round;
+    for (const ViewImage& view : decoded->views) {
+      ASSERT_LE(std::max(view.x0 + view.width, view.y0 + view.height), kImageSize) << round;
+      ASSERT_EQ(view.rgba.size(), size_t{4} * view.width * view.height) << round;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace farcell

@@ -1,0 +1,1 @@
+farcell_tests(cache/store DEPS farcell_cache_store)

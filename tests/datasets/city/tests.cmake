@@ -1,0 +1,1 @@
+farcell_tests(datasets/city DEPS farcell_datasets_city farcell_preprocess_read)

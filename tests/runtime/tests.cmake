@@ -1,0 +1,5 @@
+farcell_tests(runtime/gl DEPS farcell_runtime_gl farcell_shaders_shared)
+farcell_tests(runtime/camera DEPS farcell_runtime_camera)
+farcell_tests(runtime/selection DEPS farcell_runtime_selection)
+farcell_tests(runtime/draw DEPS farcell_runtime_draw)
+farcell_tests(runtime DEPS farcell_runtime farcell_tests_support)

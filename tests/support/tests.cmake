@@ -1,0 +1,3 @@
+farcell_library(tests/support DEPS farcell_cache_pack farcell_shaders_shared)
+# The brute-force baker would take minutes in a debug build with sanitizers.
+target_compile_options(farcell_tests_support PRIVATE -O2)

@@ -1,0 +1,146 @@
+#include "tools/cli/cli.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace farcell {
+namespace {
+
+TEST(ParseCount, TakesPlainNumbersAndDecimalFactors) {
+  const std::vector<std::pair<std::string, uint64_t>> counts = {{"0", 0},
+                                                                {"1", 1},
+                                                                {"1234", 1234},
+                                                                {"500k", 500'000},
+                                                                {"500K", 500'000},
+                                                                {"5M", 5'000'000},
+                                                                {"2G", 2'000'000'000},
+                                                                {"1.5k", 1500},
+                                                                {"1.1M", 1'100'000},
+                                                                {"0.001k", 1},
+                                                                {"1e3", 1000},
+                                                                {"007", 7},
+                                                                {"1000000000000000000", 1'000'000'000'000'000'000}};
+  for (const auto& [text, count] : counts) {
+    const auto parsed = parseCount(text);
+    ASSERT_TRUE(parsed) << text;
+    EXPECT_EQ(*parsed, count) << text;
+  }
+}
+
+TEST(ParseCount, RefusesEverythingElseAndQuotesIt) {
+  for (const std::string text :
+       {"",      "k",   "M5",      "-1",  "-5M", "5 M",  " 5",    "5 ",   "5MM",         "5m", "5T",   "5kM", "0x10",
+        "1,000", "1.5", "0.0001k", "nan", "inf", "infM", "1e400", "1e19", "2000000000G", "1e", "5M\n", "five"}) {
+    const auto parsed = parseCount(text);
+    ASSERT_FALSE(parsed) << "'" << text << "' gave " << *parsed;
+    EXPECT_EQ(parsed.error().kind, ErrorKind::invalidArgument);
+    EXPECT_NE(parsed.error().message.find("found '" + text + "'"), std::string::npos) << parsed.error().message;
+  }
+  EXPECT_FALSE(parseCount(std::string("5\0", 2)));
+  EXPECT_FALSE(parseCount(std::string(100'000, '9')));
+}
+
+TEST(ParseImageSize, TakesWidthXHeightWithinTheLimits) {
+  const std::vector<std::pair<std::string, std::pair<int, int>>> sizes = {
+      {"1280x720", {1280, 720}}, {"1x1", {1, 1}}, {"16384x16384", {16384, 16384}}, {"0640x0480", {640, 480}}};
+  for (const auto& [text, size] : sizes) {
+    const auto parsed = parseImageSize(text);
+    ASSERT_TRUE(parsed) << text;
+    EXPECT_EQ(std::pair(parsed->width, parsed->height), size) << text;
+  }
+}
+
+TEST(ParseImageSize, RefusesEverythingElseAndQuotesIt) {
+  for (const std::string text :
+       {"",          "x",         "1280", "1280x", "x720",    "1280X720", "1280 x 720",    "1280x720x3",    "0x5",
+        "5x0",       "-5x5",      "5x-5", "+5x5",  "16385x1", "1x16385",  "99999999999x1", "1x99999999999", "1.5x2",
+        "1280x720 ", " 1280x720", "axb"}) {
+    const auto parsed = parseImageSize(text);
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_EQ(parsed.error().kind, ErrorKind::invalidArgument);
+    EXPECT_NE(parsed.error().message.find("found '" + text + "'"), std::string::npos) << parsed.error().message;
+  }
+  EXPECT_FALSE(parseImageSize(std::string("5x5\0", 4)));
+}
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+// Runs a program with one option, --number <int>, whose work is `work`.
+Outcome run(std::vector<std::string> arguments, const std::function<Result<>()>& work) {
+  CLI::App app("counts things", "farcell-count");
+  int number = 0;
+  app.add_option("--number", number, "how many")->required();
+  arguments.insert(arguments.begin(), "farcell-count");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = runProgram(app, static_cast<int>(argv.size()), argv.data(), work);
+  std::string out = testing::internal::GetCapturedStdout();
+  return {code, std::move(out), testing::internal::GetCapturedStderr()};
+}
+
+Result<> succeed() { return {}; }
+Result<> mustNotRun() {
+  ADD_FAILURE() << "the work ran in spite of a wrong command line";
+  return {};
+}
+
+TEST(RunProgram, SuccessIsExitZeroAndSilent) {
+  const Outcome outcome = run({"--number", "3"}, succeed);
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST(RunProgram, AWrongCommandLineIsExitTwoWithAMessageOnStderrOnly) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {}, {"--number"}, {"--number", "three"}, {"--number", "3", "--unknown"}, {"--number", "3", "stray"}}) {
+    const Outcome outcome = run(arguments, mustNotRun);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err, "");
+  }
+}
+
+TEST(RunProgram, HelpAndVersionAreExitZeroOnStdout) {
+  const Outcome help = run({"--help"}, mustNotRun);
+  EXPECT_EQ(help.code, 0);
+  EXPECT_NE(help.out.find("--number"), std::string::npos);
+  EXPECT_EQ(help.err, "");
+  const Outcome version = run({"--version"}, mustNotRun);
+  EXPECT_EQ(version.code, 0);
+  EXPECT_NE(version.out.find(FARCELL_VERSION), std::string::npos);
+}
+
+TEST(RunProgram, AFailureIsExitOneAndAnInvalidArgumentExitTwo) {
+  const Outcome failed = run({"--number", "3"}, [] { return fail(ErrorKind::corrupt, "a.far: broken"); });
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_EQ(failed.err, "farcell-count: a.far: broken\n");
+  EXPECT_EQ(failed.out, "");
+  for (const ErrorKind kind :
+       {ErrorKind::notFound, ErrorKind::unsupported, ErrorKind::io, ErrorKind::exhausted, ErrorKind::cancelled})
+    EXPECT_EQ(run({"--number", "3"}, [&] { return fail(kind, "x"); }).code, 1);
+  EXPECT_EQ(run({"--number", "3"}, [] { return fail(ErrorKind::invalidArgument, "x"); }).code, 2);
+}
+
+TEST(RunProgram, ExceptionsOfLibrariesEndAsExitOneWithAMessage) {
+  const Outcome memory = run({"--number", "3"}, []() -> Result<> { throw std::bad_alloc(); });
+  EXPECT_EQ(memory.code, 1);
+  EXPECT_EQ(memory.err, "farcell-count: out of memory\n");
+  const Outcome other = run({"--number", "3"}, []() -> Result<> { throw std::runtime_error("odd"); });
+  EXPECT_EQ(other.code, 1);
+  EXPECT_EQ(other.err, "farcell-count: odd\n");
+}
+
+}  // namespace
+}  // namespace farcell

@@ -1,0 +1,161 @@
+// The whole program, on packs whose pictures are known.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/support/evaluate_models.h"
+
+namespace farcell {
+namespace {
+
+using Json = nlohmann::json;
+using testing::TemporaryDirectory;
+
+std::string textOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// A sphere's pack, its mesh file and two cameras of hostile names that clean up to the same.
+class EvaluateProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const testing::TestModel model = testing::sphereModel({100, 200, 300}, 10, 4);
+    const uint64_t hash = testing::writeTestPly(model, path("sphere.ply"));
+    testing::writeTestPack(model, path("sphere.far"), hash);
+    writeCameras(R"({"name":"../x","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40},
+                    {"name":"..?x","position":[100,260,320],"target":[100,200,300],"up":[0,0,1],"fovYDeg":30})");
+  }
+
+  std::filesystem::path path(const std::string& name) const { return directory_.path() / name; }
+
+  void writeCameras(const std::string& cameras) const {
+    std::ofstream(path("cameras.json")) << "{\"cameras\":[" << cameras << "]}";
+  }
+
+  // Exit code; stdout and stderr go to files of those names.
+  int run(const std::string& arguments) const {
+    const std::string command = std::string(FARCELL_PROGRAMS_DIR) + "/farcell-evaluate " + arguments + " > " +
+                                path("stdout").string() + " 2> " + path("stderr").string();
+    const int status = std::system(("cd " + directory_.path().string() + " && " + command).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  Json report() const { return Json::parse(textOf(path("report/report.json"))); }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(EvaluateProgram, FullGeometryConvergesToTheReferenceWithItsSamples) {
+  ASSERT_EQ(
+      run("sphere.far --cameras cameras.json --renderers full-16spp,triangles --size 200x150 --frames 2 -o report"), 0)
+      << textOf(path("stderr"));
+  const Json entries = report().at("entries");
+  ASSERT_EQ(entries.size(), 8u);
+  for (size_t camera = 0; camera < 2; ++camera) {
+    const Json& one = entries[4 * camera];
+    const Json& four = entries[4 * camera + 1];
+    const Json& sixteen = entries[4 * camera + 2];
+    EXPECT_EQ(one.at("renderer"), "full-1spp");
+    EXPECT_EQ(one.at("ratioToFull1spp"), 1.0);
+    EXPECT_LT(four.at("ratioToFull1spp"), 0.7);
+    EXPECT_LT(sixteen.at("ratioToFull1spp"), four.at("ratioToFull1spp"));
+    EXPECT_GT(sixteen.at("psnr"), 40) << "runtime and reference agree on camera, shading and coverage";
+    EXPECT_LT(std::abs(sixteen.at("coverageBias").get<double>()), 0.005);
+    EXPECT_EQ(one.at("holeRate"), 0);
+    EXPECT_EQ(one.at("triangles"), 8 * 256);
+    EXPECT_GT(one.at("bytesRead"), 0);
+    EXPECT_EQ(one.at("impostorShare"), 0);
+  }
+  EXPECT_TRUE(report().at("summary").contains("triangles"));
+}
+
+TEST_F(EvaluateProgram, HostileNamesStayInTheReportsDirectoryAndApart) {
+  ASSERT_EQ(run("sphere.far --cameras cameras.json --renderers full-1spp --size 40x30 --frames 1 --reference-samples 4 "
+                "-o report"),
+            0)
+      << textOf(path("stderr"));
+  int pictures = 0;
+  for (const auto& file : std::filesystem::directory_iterator(path("report")))
+    pictures += file.path().extension() == ".png" ? 1 : 0;
+  EXPECT_EQ(pictures, 2 * (1 + 2 * 2)) << "of each camera the reference, and two for each of two renderers";
+  for (const auto& file : std::filesystem::directory_iterator(directory_.path()))
+    EXPECT_NE(file.path().extension(), ".png") << file.path();
+}
+
+TEST_F(EvaluateProgram, TheOriginalFileCanBeTheTruthAndOnlyThatFile) {
+  const std::string common =
+      "sphere.far --cameras cameras.json --renderers full-4spp --size 100x80 --frames 1 -o report ";
+  ASSERT_EQ(run(common + "--mesh sphere.ply --json"), 0) << textOf(path("stderr"));
+  const Json json = report();
+  EXPECT_EQ(Json::parse(textOf(path("stdout"))), json);
+  EXPECT_EQ(json.at("reference").at("kind"), "mesh");
+  EXPECT_GT(json.at("entries")[1].at("psnr"), 35);
+  std::ofstream(path("sphere.ply"), std::ios::app) << "\n";
+  EXPECT_EQ(run(common + "--mesh sphere.ply"), 2);
+  EXPECT_NE(textOf(path("stderr")).find("not the same file"), std::string::npos) << textOf(path("stderr"));
+}
+
+TEST_F(EvaluateProgram, MakesItsOwnCamerasAndWritesThem) {
+  ASSERT_EQ(
+      run("sphere.far --auto-cameras 3 --renderers full-1spp --size 40x30 --frames 1 --reference-samples 1 -o report"),
+      0)
+      << textOf(path("stderr"));
+  const Json cameras = Json::parse(textOf(path("report/cameras.json"))).at("cameras");
+  EXPECT_EQ(cameras.size(), 3u);
+  EXPECT_NEAR(report().at("entries")[0].at("diameters").get<double>(), 0.25, 1e-6);
+  EXPECT_EQ(run("sphere.far --cameras report/cameras.json --renderers full-1spp --size 40x30 --frames 1 -o again"), 0);
+}
+
+TEST_F(EvaluateProgram, SaysWhatIsWrongWithTheRightExitCode) {
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --renderers B -o report"), 1);
+  EXPECT_NE(textOf(path("stderr")).find("not in this version"), std::string::npos);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --renderers C -o report"), 2);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --reference-samples 7 -o report"), 2);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --background 1,2,256 -o report"), 2);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --background 1,2 -o report"), 2);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --auto-cameras 3 -o report"), 2);
+  EXPECT_EQ(run("sphere.far -o report"), 2);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json"), 2);
+  EXPECT_EQ(run("absent.far --cameras cameras.json -o report"), 1);
+  EXPECT_NE(textOf(path("stderr")).find("absent.far"), std::string::npos);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --size 10x10 -o sphere.ply/report"), 1);
+  EXPECT_FALSE(std::filesystem::exists(path("report/report.json")));
+}
+
+TEST_F(EvaluateProgram, ACameraThatSeesNothingIsReportedButDoesNotCount) {
+  writeCameras(R"({"name":"away","position":[140,210,310],"target":[180,220,320],"up":[0,0,1],"fovYDeg":40},
+                  {"name":"here","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40})");
+  ASSERT_EQ(run("sphere.far --cameras cameras.json --renderers full-4spp --size 60x40 --frames 1 -o report"), 0)
+      << textOf(path("stderr"));
+  EXPECT_NE(textOf(path("stderr")).find("'away' sees nothing"), std::string::npos);
+  const Json json = report();
+  EXPECT_TRUE(json.at("entries")[0].at("ratioToFull1spp").is_null());
+  EXPECT_EQ(json.at("summary").at("full-4spp").at("cameras"), 1);
+}
+
+TEST_F(EvaluateProgram, AnInterruptKeepsTheCamerasThatWereFinished) {
+  // Far more cameras than can be measured before the second one's picture is noticed.
+  const std::string command =
+      "cd " + directory_.path().string() + " && { " + FARCELL_PROGRAMS_DIR +
+      "/farcell-evaluate sphere.far --auto-cameras 500 --renderers full-1spp --size 40x30 --reference-samples 1 "
+      "--frames 1 -o report > stdout 2> stderr & pid=$!; "
+      "while kill -0 $pid && [ ! -e report/auto-02-0_5d.reference.png ]; do sleep .02; done; "
+      "kill -TERM $pid; wait $pid; }";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1) << textOf(path("stderr"));
+  const Json json = report();
+  EXPECT_EQ(json.at("complete"), false);
+  EXPECT_GE(json.at("entries").size(), 2u);
+  EXPECT_LT(json.at("entries").size(), 1000u);
+  EXPECT_EQ(json.at("entries").size() % 2, 0u) << "whole cameras only";
+}
+
+}  // namespace
+}  // namespace farcell

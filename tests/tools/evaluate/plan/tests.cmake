@@ -1,0 +1,1 @@
+farcell_tests(tools/evaluate/plan DEPS farcell_tools_evaluate_plan)

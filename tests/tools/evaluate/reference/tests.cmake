@@ -1,0 +1,1 @@
+farcell_tests(tools/evaluate/reference DEPS farcell_tools_evaluate_reference)

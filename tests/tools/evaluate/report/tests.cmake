@@ -1,0 +1,1 @@
+farcell_tests(tools/evaluate/report DEPS farcell_tools_evaluate_report)

@@ -1,0 +1,3 @@
+pkg_check_modules(nlohmann_json REQUIRED IMPORTED_TARGET nlohmann_json)
+farcell_tests(tools/generate DEPS farcell_cache_base PkgConfig::nlohmann_json)
+add_dependencies(tools_generate_test farcell-generate)

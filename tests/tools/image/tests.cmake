@@ -1,0 +1,1 @@
+farcell_tests(tools/image DEPS farcell_tools_image)

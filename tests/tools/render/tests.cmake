@@ -1,0 +1,3 @@
+find_package(nlohmann_json REQUIRED)
+farcell_tests(tools/render DEPS farcell_tests_support farcell_tools_image nlohmann_json::nlohmann_json)
+add_dependencies(tools_render_test farcell-render)

@@ -1,0 +1,88 @@
+// farcell-render: one picture of a pack from one camera, and what it cost.
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cache/base/file.h"
+#include "cache/base/interrupt.h"
+#include "runtime/camera/overview.h"
+#include "tools/cli/cli.h"
+#include "tools/image/png.h"
+#include "tools/render/options.h"
+
+namespace farcell {
+namespace {
+
+Result<Camera> chooseCamera(const RenderOptions& options, const Model& model, const ImageSize& size) {
+  if (options.cameras.empty()) {
+    const glm::dvec3 min = model.grid.worldFromGrid(model.bounds.min);
+    const glm::dvec3 max = model.grid.worldFromGrid(model.bounds.max);
+    return overviewCamera(min, max, upVector(model.settings.up), static_cast<double>(size.width) / size.height);
+  }
+  FARCELL_ASSIGN(const std::vector<Camera> cameras, readCameras(options.cameras));
+  if (options.cameraName.empty()) return cameras.front();
+  for (const Camera& camera : cameras)
+    if (camera.name == options.cameraName) return camera;
+  return fail(ErrorKind::invalidArgument, "{}: no camera is named '{}'", options.cameras, options.cameraName);
+}
+
+nlohmann::json frameJson(const FrameStats& stats) {
+  return {{"wallMs", stats.wallMs},       {"cpuMs", stats.cpuMs},   {"triangles", stats.triangles},
+          {"impostors", stats.impostors}, {"texels", stats.texels}, {"bytesRead", stats.bytesRead}};
+}
+
+// Frames after the first, which reads the pack; the first where it is the only one.
+double medianWarmMs(const std::vector<FrameStats>& frames) {
+  std::vector<double> times;
+  for (size_t i = frames.size() > 1 ? 1 : 0; i < frames.size(); ++i) times.push_back(frames[i].wallMs);
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+Result<> writeFigures(const std::string& path, const std::string& renderer, const std::vector<FrameStats>& frames) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FrameStats& stats : frames) list.push_back(frameJson(stats));
+  const nlohmann::json figures = {{"openGl", renderer}, {"frames", list}, {"medianWarmMs", medianWarmMs(frames)}};
+  const std::string text = figures.dump(2) + "\n";
+  if (path != "-") return writeTextFile(path, text);
+  std::fputs(text.c_str(), stdout);
+  return {};
+}
+
+Result<> run(const RenderOptions& options) {
+  FARCELL_ASSIGN(const RenderPlan plan, planOf(options));
+  FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
+  FARCELL_ASSIGN(const Camera camera,
+                 chooseCamera(options, pack.directory().model, {plan.settings.width, plan.settings.height}));
+  FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
+  FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, plan.residentBytes));
+  std::vector<FrameStats> frames;
+  for (int i = 0; i < options.repeat; ++i) {
+    FARCELL_TRY(checkInterrupt());
+    FARCELL_ASSIGN(const FrameStats stats, renderer.draw(camera, plan.settings, nullptr));
+    frames.push_back(stats);
+  }
+  if (!options.output.empty()) {
+    FrameImage image;
+    FARCELL_TRY(renderer.draw(camera, plan.settings, &image));
+    FARCELL_TRY(writePng(options.output, {image.width, image.height, 3, overBackground(image.rgba, plan.background)}));
+  }
+  if (!options.statsFile.empty()) {
+    FARCELL_TRY(writeFigures(options.statsFile, context.renderer(), frames));
+  }
+  const FrameStats& last = frames.back();
+  std::fprintf(stderr, "%.1f ms, %llu triangles, %llu impostors, %llu texels (%s)\n", medianWarmMs(frames),
+               static_cast<unsigned long long>(last.triangles), static_cast<unsigned long long>(last.impostors),
+               static_cast<unsigned long long>(last.texels), context.renderer().c_str());
+  return {};
+}
+
+}  // namespace
+}  // namespace farcell
+
+int main(int argc, char** argv) {
+  CLI::App app("Draws one picture of a pack.", "farcell-render");
+  farcell::RenderOptions options;
+  farcell::addRenderOptions(app, options);
+  return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options); });
+}
