@@ -20,7 +20,7 @@ done
 
 passed=0 failed=0 skipped=0
 
-# Adds the counts of a JUnit report: ctest counts skipped tests beside the passed ones.
+# Adds the counts in the head of a JUnit report, where skipped tests are among the tests.
 count() {
   local report=$1 name value tests=0 failures=0 absent=0 idle=0
   while read -r name value; do
@@ -30,8 +30,8 @@ count() {
       disabled) absent=$value ;;
       skipped) idle=$value ;;
     esac
-  done < <(grep -o -m1 -A4 '<testsuite .*' "$report" | tr '\n\t' '  ' | sed 's/>.*//' |
-    grep -oE '\b(tests|failures|disabled|skipped)="[0-9]+"' | tr -d '"' | tr '=' ' ')
+  done < <(tr '\n\t' '  ' <"$report" | grep -oE -m1 '<testsuite [^>]*>' |
+    grep -oE ' (tests|failures|disabled|skipped)="[0-9]+"' | tr -d '"' | tr '=' ' ')
   passed=$((passed + tests - failures - absent - idle))
   failed=$((failed + failures))
   skipped=$((skipped + absent + idle))

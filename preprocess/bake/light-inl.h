@@ -127,7 +127,8 @@ HWY_INLINE VF lightOn(const VF (&normal)[3], glm::vec3 sun) {
   const VF length = hn::Sqrt(dot3(normal, normal));
   const MF known = hn::Gt(length, hn::Zero(df));
   const VF cosine = hn::Div(hn::Abs(dot3(normal, light)), hn::IfThenElse(known, length, hn::Set(df, 1.0f)));
-  return hn::Add(hn::Set(df, shared::kAmbient), hn::Mul(hn::Set(df, shared::kDiffuse), hn::IfThenElseZero(known, cosine)));
+  return hn::Add(hn::Set(df, shared::kAmbient),
+                 hn::Mul(hn::Set(df, shared::kDiffuse), hn::IfThenElseZero(known, cosine)));
 }
 
 HWY_INLINE void albedoAt(const TriangleLanes& lanes, const Weights& weights, VF (&albedo)[3]) {

@@ -1,7 +1,6 @@
 #include "preprocess/bake/rasterise.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "cache/base/check.h"
 
@@ -48,7 +47,7 @@ void findSlopes(TriangleQueue& queue) {
     const VD area = hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(x[2], y[1]));
     const VD divisor = hn::IfThenElse(hn::Eq(area, hn::Zero(dd)), hn::Set(dd, 1.0), area);
     const VD slopeX = hn::Div(hn::Sub(hn::Mul(w[1], y[2]), hn::Mul(w[2], y[1])), divisor);
-    const VD slopeY = hn::Div(hn::Sub(hn::Mul(w[2], x[1]), hn::Mul(w[1], x[1])), divisor);
+    const VD slopeY = hn::Div(hn::Sub(hn::Mul(w[2], x[1]), hn::Mul(w[1], x[2])), divisor);
     hn::StoreU(hn::DemoteTo(df, area), df, queue.area + i);
     hn::StoreU(hn::DemoteTo(df, slopeX), df, queue.slopeX + i);
     hn::StoreU(hn::DemoteTo(df, slopeY), df, queue.slopeY + i);

@@ -45,9 +45,9 @@ inline constexpr size_t kSmallQueues = 4;
 
 struct RasterScratch {
   TriangleQueue queues[kSmallQueues + 1];
-  bool planes = true;                     // large triangles are to have colour planes (kHasPlane)
-  std::vector<uint32_t> largeTriangles;   // out: those of this chunk, in the order of their slots
-  std::vector<uint32_t> largeSlots;       // out: by triangle; defined for large triangles only
+  bool planes = true;                    // large triangles are to have colour planes (kHasPlane)
+  std::vector<uint32_t> largeTriangles;  // out: those of this chunk, in the order of their slots
+  std::vector<uint32_t> largeSlots;      // out: by triangle; defined for large triangles only
 };
 
 // Rasterises a chunk into the image; returns the texels it may have touched. The keys it writes are not settled.

@@ -62,21 +62,20 @@ template <class D>
 HWY_INLINE uint32_t addColours(D du, const Side& side, const uint64_t* keys, Texel& texel) {
   const auto complement = hn::Set(du, side.complement()), empty = hn::Set(du, side.emptyDepth());
   const auto channel = hn::Set(du, kChannelMask);
-  auto redBlue = hn::Zero(du), green = hn::Zero(du), nearest = empty;
+  auto red = hn::Zero(du), green = hn::Zero(du), blue = hn::Zero(du), nearest = empty;
   for (int i = 0; i < side.samples; i += static_cast<int>(hn::Lanes(du))) {
     const auto depth = highWords(du, keys + i);
     const auto payload = hn::Xor(lowWords(du, keys + i), complement);  // 0 where empty
     texel.covered += static_cast<uint32_t>(hn::CountTrue(du, hn::Ne(depth, empty)));
     nearest = side.mirrored ? hn::Min(nearest, depth) : hn::Max(nearest, depth);
-    const auto blue = hn::And(hn::ShiftRight<2 * kChannelBits>(payload), channel);
-    redBlue = hn::Add(redBlue, hn::Or(hn::And(payload, channel), hn::ShiftLeft<16>(blue)));
+    red = hn::Add(red, hn::And(payload, channel));
     green = hn::Add(green, hn::And(hn::ShiftRight<kChannelBits>(payload), channel));
+    blue = hn::Add(blue, hn::And(hn::ShiftRight<2 * kChannelBits>(payload), channel));
   }
   if (texel.covered == 0) return side.emptyDepth();
-  const uint32_t both = hn::GetLane(hn::SumOfLanes(du, redBlue));  // 64 samples of at most 1020 fit into 16 bits
-  texel.red = both & 0xffff;
-  texel.blue = both >> 16;
+  texel.red = hn::GetLane(hn::SumOfLanes(du, red));
   texel.green = hn::GetLane(hn::SumOfLanes(du, green));
+  texel.blue = hn::GetLane(hn::SumOfLanes(du, blue));
   return hn::GetLane(side.mirrored ? hn::MinOfLanes(du, nearest) : hn::MaxOfLanes(du, nearest));
 }
 

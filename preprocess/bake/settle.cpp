@@ -20,7 +20,7 @@ namespace farcell::bake::HWY_NAMESPACE {
 // One texel row of one side of the image.
 struct Row {
   uint64_t* keys;
-  uint32_t* normals;  // null: not asked for
+  uint32_t* normals;    // null: not asked for
   uint32_t complement;  // kept payload ^ complement = payload
   float texelY;         // position of the row's lowest samples
 };
@@ -89,8 +89,8 @@ HWY_INLINE VU planePayload(const ColourPlane& plane, const Positions& position) 
   const VF x = hn::Sub(position.x, hn::Set(df, plane.originX)), y = hn::Sub(position.y, hn::Set(df, plane.originY));
   VF colour[3];
   for (int channel = 0; channel < 3; ++channel) {
-    const VF slope = hn::Add(hn::Mul(x, hn::Set(df, plane.gradientX[channel])),
-                             hn::Mul(y, hn::Set(df, plane.gradientY[channel])));
+    const VF slope =
+        hn::Add(hn::Mul(x, hn::Set(df, plane.gradientX[channel])), hn::Mul(y, hn::Set(df, plane.gradientY[channel])));
     const VF value = hn::Add(hn::Set(df, plane.value[channel]), slope);
     colour[channel] = hn::Max(hn::Set(df, plane.low[channel]), hn::Min(hn::Set(df, plane.high[channel]), value));
   }
@@ -226,7 +226,8 @@ uint32_t packedOctahedral(glm::vec3 unit) {
 
 glm::vec3 unitFromPacked(uint32_t packed) {
   const auto x = static_cast<int16_t>(packed & 0xffff), y = static_cast<int16_t>(packed >> 16);
-  return shared::unitFromOctahedral(glm::vec2(static_cast<float>(x) / kSnorm16One, static_cast<float>(y) / kSnorm16One));
+  return shared::unitFromOctahedral(
+      glm::vec2(static_cast<float>(x) / kSnorm16One, static_cast<float>(y) / kSnorm16One));
 }
 
 }  // namespace farcell::bake

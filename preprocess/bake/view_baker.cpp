@@ -18,7 +18,8 @@ void CellSoup::clear() {
 }
 
 struct ViewBaker::Impl {
-  explicit Impl(const BakeSettings& wanted) : settings(wanted), image(wanted.imageSize, wanted.samples, wanted.normals) {}
+  explicit Impl(const BakeSettings& wanted)
+      : settings(wanted), image(wanted.imageSize, wanted.samples, wanted.normals) {}
 
   BakeSettings settings;
   bake::SampleImage image;

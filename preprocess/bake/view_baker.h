@@ -3,6 +3,9 @@
 // The life of a view: begin -> add (any number of chunks of triangles; a z-buffer does not care about order) ->
 // finish. Each texel is the mean of samples on a regular sub-grid; triangles are rasterised by SIMD code chosen at run
 // time (Highway), which gives the same bits on every instruction set.
+//
+// Inside: rasterise.h finds the nearest and the farthest triangle of every sample (sample_image.h), settle.h gives
+// those samples their lit colour, resolve.h makes texels of them.
 #pragma once
 
 #include <array>
@@ -29,19 +32,20 @@ struct CellSoup {
 };
 
 struct BakeSettings {
-  int imageSize = 128;      // texels along an edge
-  int samples = 16;         // per texel: 1, 4, 16, 64 (a square number: 1x1, 2x2, 4x4, 8x8)
-  glm::vec3 sun{0, 0, 1};   // unit, world axes (shading.h)
-  bool normals = false;     // also bake the mean normal
+  int imageSize = 128;     // texels along an edge
+  int samples = 16;        // per texel: 1, 4, 16, 64 (a square number: 1x1, 2x2, 4x4, 8x8)
+  glm::vec3 sun{0, 0, 1};  // unit, world axes (shading.h)
+  bool normals = false;    // also bake the mean normal
 };
 
 // A finished view, cropped to its covered texels, before quantisation.
 struct BakedView {
   int x0 = 0, y0 = 0, width = 0, height = 0;  // texels; width == 0: nothing was hit
-  std::vector<float> rgba;     // 4 per texel, [0, 1], premultiplied: mean over all samples; alpha is coverage
-  std::vector<float> depth;    // 1 per texel: mean w of the covered samples within kDepthAverageTexels of the nearest
-                               // one; -infinity where nothing was hit
-  std::vector<float> normal;   // 3 per texel, unit (mean of the same samples, renormalised); empty unless asked for
+  std::vector<float> rgba;    // 4 per texel, [0, 1], premultiplied: mean over all samples; alpha is coverage
+  std::vector<float> depth;   // 1 per texel: mean w of the covered samples within kDepthAverageTexels of the nearest
+                              // one; -infinity where nothing was hit
+  std::vector<float> normal;  // 3 per texel, unit, on the viewer's side (mean of the same samples, renormalised); 0
+                              // where nothing was hit; empty unless asked for
 };
 // Averaging depth across a silhouette would put the surface in mid-air.
 inline constexpr float kDepthAverageTexels = 3;
@@ -53,9 +57,13 @@ class ViewBaker {
   ~ViewBaker();
   ViewBaker(ViewBaker&&) noexcept;
 
+  // What was added since the last begin and not finished is forgotten.
   void begin(const ViewFrame& frame);
+  // The chunk is not needed any more when this returns. How triangles are split into chunks changes no bit of the
+  // result: of equal depths the triangle that was added first counts. Fewer than 2^30 triangles a chunk.
   void add(const CellSoup& chunk);
-  // The view from frame.toward, and the one from -frame.toward in viewFrame(-frame.toward)'s image coordinates.
+  // The view from frame.toward, and the one from -frame.toward in viewFrame(-frame.toward)'s image coordinates: bit for
+  // bit the view that would be baked from there. REQUIRES: begin since the last finish.
   void finish(BakedView& view, BakedView& antipode);
 
  private:

@@ -40,8 +40,8 @@ struct SampleLanes {
 // One triangle, counter-clockwise; positions in sample widths from the centre.
 struct LargeTriangle {
   float x[3], y[3];
-  float dx[3], dy[3];   // edge k runs from corner k to the next one
-  double xPerY[3];      // along edge k; where dy is 0 unused
+  float dx[3], dy[3];  // edge k runs from corner k to the next one
+  double xPerY[3];     // along edge k; where dy is 0 unused
   float w, slopeX, slopeY, wMin, wMax;
   float x0, y0, x1, y1;  // centres of the first and last samples of its box
   uint32_t payload;

@@ -6,6 +6,10 @@
 #define FARCELL_BAKE_WALK_SMALL_INL_H
 #endif
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
 #include "preprocess/bake/lanes-inl.h"
 #include "preprocess/bake/rasterise.h"
 
@@ -53,8 +57,8 @@ HWY_INLINE VI sampleElement(VI x, VI y, const SampleImage& image) {
   const DI di;
   const int shift = image.edgeShift;
   const VI inTexel = hn::Set(di, (1 << shift) - 1);
-  const VI texel = hn::Add(hn::Mul(hn::ShiftRightSame(y, shift), hn::Set(di, image.imageSize)),
-                           hn::ShiftRightSame(x, shift));
+  const VI texel =
+      hn::Add(hn::Mul(hn::ShiftRightSame(y, shift), hn::Set(di, image.imageSize)), hn::ShiftRightSame(x, shift));
   const VI sample = hn::Add(hn::ShiftLeftSame(hn::And(y, inTexel), shift), hn::And(x, inTexel));
   return hn::Add(hn::ShiftLeftSame(texel, 2 * shift), sample);
 }

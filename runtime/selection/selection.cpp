@@ -52,7 +52,7 @@ double distanceSteps(glm::dvec3 eye, const GridBox& box) {
 // A leaf that is too near for its views.
 struct Candidate {
   size_t entry;
-  double distanceSteps;
+  double texelPixels;  // of its views, at its nearest point: the error that triangles would remove
 };
 
 class Selector {
@@ -90,7 +90,7 @@ class Selector {
     } else if (settings_.mode == RenderMode::impostors) {
       addImpostor(index);
     } else {
-      candidates_.push_back({cut_.entries.size(), distanceSteps(view_.eye, cell.content)});
+      candidates_.push_back({cut_.entries.size(), texelPixels(cell)});
       addImpostor(index);
     }
   }
@@ -115,8 +115,13 @@ class Selector {
     const GridBox cube = cellBox(directory_.model.grid, cell.key);
     const double halfSide = (cube.max.x - cube.min.x) * 0.5;
     if (glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) <= std::sqrt(3.0) * halfSide) return false;
-    const double pixel = distanceSteps(view_.eye, cell.content) * view_.pixelAngle;
-    return imageTexel_ * halfSide <= settings_.texelPixels * pixel;
+    return texelPixels(cell) <= settings_.texelPixels;
+  }
+
+  // Edge of a texel of the cell's views at the cell's nearest point; infinite inside the content box.
+  double texelPixels(const CellRecord& cell) const {
+    const double halfSide = std::ldexp(0.5, directory_.model.grid.bits - static_cast<int>(cell.key.level));
+    return imageTexel_ * halfSide / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
   }
 
   void addImpostor(uint32_t index) {
@@ -130,10 +135,10 @@ class Selector {
     cut_.triangles += directory_.cells[index].triangles;
   }
 
-  // Cells without views have been counted already: the rest of the budget goes to the nearest candidates.
+  // Cells without views have been counted already: the rest of the budget goes to the worst candidates.
   void spendBudget() {
     std::stable_sort(candidates_.begin(), candidates_.end(),
-                     [](const Candidate& l, const Candidate& r) { return l.distanceSteps < r.distanceSteps; });
+                     [](const Candidate& l, const Candidate& r) { return l.texelPixels > r.texelPixels; });
     for (const Candidate& candidate : candidates_) {
       CutEntry& entry = cut_.entries[candidate.entry];
       const uint64_t triangles = directory_.cells[entry.cell].triangles;

@@ -3,7 +3,8 @@
 // The 2010 paper's rule (Saraiva, Oliveira, Madeiras Pereira, WSCG 2010, section 3.2) with a level rule: from the root
 // down, a cell outside the frustum is dropped; a cell whose texel is at most kTexelPixels of a pixel at the cell's
 // nearest point, and from whose bounding sphere the eye is outside, is an impostor; leaves that are too near for that
-// become triangles, nearest first, until the triangle budget, and impostors beyond it.
+// become triangles, those with the largest texels on screen first (of equal cells: the nearest first), until the
+// triangle budget, and impostors beyond it.
 #pragma once
 
 #include <array>

@@ -79,7 +79,7 @@ dependencies() {
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
-  heavy Highway '[<"]hwy/' '^(preprocess/bake|tests/bench)/'
+  heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'

@@ -71,4 +71,18 @@ Result<ImageSize> parseImageSize(const std::string& text) {
   return size;
 }
 
+Result<std::array<uint8_t, 3>> parseColour(const std::string& option, const std::string& text) {
+  std::array<uint8_t, 3> colour{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (size_t i = 0; i < 3; ++i) {
+    const auto [next, code] = std::from_chars(at, end, colour[i]);
+    const bool separated = i < 2 ? next != end && *next == ',' : next == end;
+    if (code != std::errc{} || !separated)
+      return fail(ErrorKind::invalidArgument, "{}: expected R,G,B of 0 to 255, found '{}'", option, text);
+    at = next + 1;
+  }
+  return colour;
+}
+
 }  // namespace farcell

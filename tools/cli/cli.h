@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -22,5 +23,8 @@ struct ImageSize {
   int height = 0;
 };
 Result<ImageSize> parseImageSize(const std::string& text);
+
+// "179,204,230"; the option's name is for the message.
+Result<std::array<uint8_t, 3>> parseColour(const std::string& option, const std::string& text);
 
 }  // namespace farcell

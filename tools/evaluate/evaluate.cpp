@@ -138,7 +138,7 @@ std::vector<std::string> cameraStems(const std::vector<Camera>& cameras) {
 Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_TRY(checkReferenceSamples(options.referenceSamples));
   FARCELL_ASSIGN(std::vector<RendererPlan> plans,
-                 planRenderers(options.renderers, options.width, options.height, options.triangleBudget));
+                 planRenderers(options.renderers, options.width, options.height, options.selection));
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   FARCELL_ASSIGN(std::vector<Camera> cameras, loadCameras(options, pack.directory().model));
   FARCELL_TRY(makeDirectory(options.output));

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cache/base/result.h"
+#include "runtime/selection/selection.h"
 #include "tools/evaluate/metrics/images.h"
 
 namespace farcell {
@@ -24,10 +25,10 @@ struct EvaluateOptions {
   int width = 1280;
   int height = 720;
   int referenceSamples = 64;
-  uint64_t triangleBudget = 500'000;
+  SelectionSettings selection;  // level rule and triangle budget of every renderer
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;
-  Colour background = {255, 255, 255};
+  Colour background = {179, 204, 230};
   bool json = false;  // stdout: the report instead of a table
 };
 

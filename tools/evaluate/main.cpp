@@ -1,5 +1,4 @@
 // farcell evaluate: how far a pack's pictures are from the full geometry, and what they cost.
-#include <array>
 #include <cstdio>
 
 #include "tools/cli/cli.h"
@@ -13,25 +12,18 @@ namespace {
 struct Words {
   std::string size = "1280x720";
   std::string triangleBudget = "500k";
-  std::string background = "255,255,255";
+  std::string background = "179,204,230";
   uint64_t residentMib = 1024;
 };
-
-Result<Colour> parseColour(const std::string& text) {
-  std::array<unsigned, 3> values{};
-  int length = 0;
-  const int read = std::sscanf(text.c_str(), "%3u,%3u,%3u%n", &values[0], &values[1], &values[2], &length);
-  if (read != 3 || static_cast<size_t>(length) != text.size() || std::max({values[0], values[1], values[2]}) > 255)
-    return fail(ErrorKind::invalidArgument, "background: expected R,G,B of 0 to 255, found '{}'", text);
-  return Colour{static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
-}
 
 Result<> run(EvaluateOptions& options, const Words& words) {
   FARCELL_ASSIGN(const ImageSize size, parseImageSize(words.size));
   options.width = size.width;
   options.height = size.height;
-  FARCELL_ASSIGN(options.triangleBudget, parseCount(words.triangleBudget));
-  FARCELL_ASSIGN(options.background, parseColour(words.background));
+  FARCELL_ASSIGN(options.selection.triangleBudget, parseCount(words.triangleBudget));
+  FARCELL_ASSIGN(const auto background, parseColour("--background", words.background));
+  options.background = Colour{static_cast<float>(background[0]), static_cast<float>(background[1]),
+                              static_cast<float>(background[2])};
   options.residentBytes = words.residentMib << 20;
   if (options.cameras.empty() && options.autoCameras == 0)
     return fail(ErrorKind::invalidArgument, "one of --cameras and --auto-cameras is needed");
@@ -53,6 +45,10 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--reference-samples", options.referenceSamples, "per pixel: a square number up to 64")
       ->capture_default_str();
   app.add_option("--triangle-budget", words.triangleBudget, "triangles a frame of 'auto' may draw")
+      ->capture_default_str();
+  app.add_option("--texel-pixels", options.selection.texelPixels,
+                 "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
+      ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
   app.add_option("--frames", options.timedFrames, "warm frames that are timed")
       ->check(CLI::Range(1, 1000))

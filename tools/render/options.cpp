@@ -1,7 +1,5 @@
 #include "tools/render/options.h"
 
-#include <charconv>
-
 #include "tools/cli/cli.h"
 
 namespace farcell {
@@ -21,20 +19,6 @@ Result<ImpostorKind> parseKind(const std::string& text) {
   return fail(ErrorKind::invalidArgument, "--kind: expected flat or A, found '{}'", text);
 }
 
-Result<std::array<uint8_t, 3>> parseColour(const std::string& text) {
-  std::array<uint8_t, 3> colour{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (size_t i = 0; i < 3; ++i) {
-    const auto [next, code] = std::from_chars(at, end, colour[i]);
-    const bool separated = i < 2 ? next != end && *next == ',' : next == end;
-    if (code != std::errc{} || !separated)
-      return fail(ErrorKind::invalidArgument, "--background: expected R,G,B of 0 to 255, found '{}'", text);
-    at = next + 1;
-  }
-  return colour;
-}
-
 }  // namespace
 
 void addRenderOptions(CLI::App& app, RenderOptions& options) {
@@ -46,6 +30,10 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
       ->capture_default_str();
   app.add_option("--kind", options.kind, "of impostors: flat or A (depth-corrected)")->capture_default_str();
   app.add_option("--triangle-budget", options.triangleBudget, "most triangles of a frame in mode auto")
+      ->capture_default_str();
+  app.add_option("--texel-pixels", options.texelPixels,
+                 "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
+      ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
   app.add_option("--samples", options.samples, "per pixel, of triangles: 1, 4 or 16")->capture_default_str();
   app.add_option("--background", options.background, "R,G,B of 0 to 255; default: 179,204,230");
@@ -64,6 +52,7 @@ Result<RenderPlan> planOf(const RenderOptions& options) {
   FARCELL_ASSIGN(plan.settings.selection.mode, parseMode(options.mode));
   FARCELL_ASSIGN(plan.settings.kind, parseKind(options.kind));
   FARCELL_ASSIGN(plan.settings.selection.triangleBudget, parseCount(options.triangleBudget));
+  plan.settings.selection.texelPixels = options.texelPixels;
   FARCELL_ASSIGN(plan.residentBytes, parseCount(options.residentBytes));
   if (samples != 1 && samples != 4 && samples != 16)
     return fail(ErrorKind::invalidArgument, "--samples: expected 1, 4 or 16, found {}", samples);
@@ -76,7 +65,7 @@ Result<RenderPlan> planOf(const RenderOptions& options) {
   plan.settings.samplesPerPixel = static_cast<int>(samples);
   plan.background = kDefaultBackground;
   if (!options.background.empty()) {
-    FARCELL_ASSIGN(plan.background, parseColour(options.background));
+    FARCELL_ASSIGN(plan.background, parseColour("--background", options.background));
   }
   return plan;
 }

@@ -20,6 +20,7 @@ struct RenderOptions {
   std::string mode = "auto";
   std::string kind = "A";
   std::string triangleBudget = "500k";
+  double texelPixels = kTexelPixels;
   std::string samples = "4";
   std::string background;  // empty: kDefaultBackground
   std::string residentBytes = "1G";

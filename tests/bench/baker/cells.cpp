@@ -41,9 +41,8 @@ IndexedMesh welded(const std::vector<glm::dvec3>& corners) {
 
 void simplify(IndexedMesh& mesh, size_t triangles) {
   std::vector<unsigned> simplified(mesh.indices.size());
-  simplified.resize(meshopt_simplify(simplified.data(), mesh.indices.data(), mesh.indices.size(),
-                                     &mesh.positions[0].x, mesh.positions.size(), sizeof(glm::vec3), 3 * triangles, 1.0f,
-                                     0, nullptr));
+  simplified.resize(meshopt_simplify(simplified.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
+                                     mesh.positions.size(), sizeof(glm::vec3), 3 * triangles, 1.0f, 0, nullptr));
   mesh.indices.resize(simplified.size());
   meshopt_optimizeVertexCache(mesh.indices.data(), simplified.data(), simplified.size(), mesh.positions.size());
 }
@@ -90,6 +89,22 @@ Result<BenchCell> statueCell(const std::filesystem::path& path, size_t triangles
   for (size_t i = 0; i < mesh.indices.size(); ++i) {
     const unsigned vertex = mesh.indices[i];
     addCorner(cell.soup, i % 3, mesh.positions[vertex], 0x808080u + vertex % 64 * 0x010101u);
+  }
+  return cell;
+}
+
+BenchCell reliefCell(int edge) {
+  BenchCell cell{"relief", {}};
+  const auto add = [&](size_t k, int x, int y) {
+    const double u = 2.0 * x / edge - 1, v = 2.0 * y / edge - 1;
+    const glm::dvec3 p(u, v, 0.4 * std::sin(3 * u + v) + 0.1 * std::cos(11 * v - 7 * u));
+    addCorner(cell.soup, k, glm::vec3(p), 0x406080u + static_cast<uint32_t>((x * 7 + y * 3) % 64) * 0x010101u);
+  };
+  for (int y = 0; y < edge; ++y) {
+    for (int x = 0; x < edge; ++x) {
+      add(0, x, y), add(1, x + 1, y), add(2, x + 1, y + 1);
+      add(0, x, y), add(1, x + 1, y + 1), add(2, x, y + 1);
+    }
   }
   return cell;
 }

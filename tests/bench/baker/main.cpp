@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <functional>
+#include <string>
 #include <thread>
 
 #include "cache/schema/viewpoints.h"
@@ -24,6 +26,13 @@ double threadCpuMs() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+std::string processorName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown processor";
 }
 
 double median(std::vector<double> values) {
@@ -105,23 +114,25 @@ void compare(const BenchCell& cell, int samples, int runs) {
 }
 
 void printHeader(int runs) {
-  const int64_t targets = hwy::SupportedTargets();
-  const int64_t best = targets & -targets;
-  fmt::print("# {} hardware threads; Highway target {}; {} runs, median; one thread's CPU time\n",
+  const int64_t best = hwy::SupportedAndGeneratedTargets().front();
+  fmt::print("# bench_baker {} > tests/bench/baker/results.csv\n", runs);
+  fmt::print("# {}, {} hardware threads; Highway target {}; {} runs, median; one thread's CPU time\n", processorName(),
              std::thread::hardware_concurrency(), hwy::TargetName(best), runs);
-  fmt::print("# 42 views of {0} x {0} texels as 21 pairs; shading and resolving included. Embree: packets of 16, coherent,\n",
-             kImageSize);
+  fmt::print(
+      "# 42 views of {0} x {0} texels as 21 pairs; shading and resolving included. Embree: packets of 16, coherent,\n",
+      kImageSize);
   fmt::print("# texels of the covered rectangle only; embreeMs is the faster of plain and robust.\n");
-  fmt::print("cell,triangles,samples,bakerMs,embreePlainMs,embreeRobustMs,embreeMs,ratio,bakerCoverage,embreeCoverage\n");
+  fmt::print(
+      "cell,triangles,samples,bakerMs,embreePlainMs,embreeRobustMs,embreeMs,ratio,bakerCoverage,embreeCoverage\n");
 }
 
 int run(int runs) {
   printHeader(runs);
-  const auto statue =
-      statueCell(FARCELL_SOURCE_DIR "/../shared/datasets/nefertiti.obj", kStatueTriangles);
+  const auto statue = statueCell(FARCELL_SOURCE_DIR "/../shared/datasets/nefertiti.obj", kStatueTriangles);
   if (!statue) fmt::print(stderr, "the statue is left out: {}\n", statue.error().message);
   for (const int samples : {1, 4, 16})
     if (statue) compare(*statue, samples, runs);
+  for (const int samples : {1, 4, 16}) compare(reliefCell(200), samples, runs);
   for (const int blocks : {8, 80, 400})
     for (const int samples : {1, 4, 16}) compare(blockCell(blocks), samples, runs);
   return 0;

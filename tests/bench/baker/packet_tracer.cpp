@@ -20,8 +20,8 @@ glm::vec3 albedoOf(uint32_t colour) {
 
 // The texels and samples of one packet: a square of 16 samples.
 struct PacketShape {
-  int edge;        // samples along a texel's edge
-  int texels;      // texels along the packet's edge, at least 1
+  int edge;    // samples along a texel's edge
+  int texels;  // texels along the packet's edge, at least 1
 };
 
 struct Sums {
@@ -38,8 +38,8 @@ PacketTracer::PacketTracer(const CellSoup& soup, bool robust)
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                3 * sizeof(float), 3 * soup.size()));
-  auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(uint32_t), soup.size()));
+  auto* indices = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), soup.size()));
   for (size_t i = 0; i < 3 * soup.size(); ++i) {
     vertices[3 * i] = soup.x[i % 3][i / 3];
     vertices[3 * i + 1] = soup.y[i % 3][i / 3];
@@ -91,8 +91,7 @@ void addHit(Sums& sums, const RTCRayHit16& packet, int i, const CellSoup& soup, 
   const float first = packet.hit.u[i], second = packet.hit.v[i];
   const glm::vec3 albedo = albedoOf(soup.colours[0][triangle]) * (1 - first - second) +
                            albedoOf(soup.colours[1][triangle]) * first + albedoOf(soup.colours[2][triangle]) * second;
-  const glm::vec3 normal =
-      glm::normalize(glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]));
+  const glm::vec3 normal = glm::normalize(glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]));
   sums.colour += shared::shade(albedo, normal, sun);
   ++sums.covered;
   sums.nearest = std::max(sums.nearest, kStartW - packet.ray.tfar[i]);

@@ -83,7 +83,8 @@ inline CellSoup sphereSoup(int splits, float radius) {
     }
     faces = finer;
   }
-  const glm::vec3 u = glm::normalize(glm::vec3(1, .3f, -.2f)), v = glm::normalize(glm::cross(glm::vec3(.1f, 1, .4f), u));
+  const glm::vec3 u = glm::normalize(glm::vec3(1, .3f, -.2f)),
+                  v = glm::normalize(glm::cross(glm::vec3(.1f, 1, .4f), u));
   const glm::vec3 w = glm::cross(u, v);
   CellSoup soup;
   for (const auto& [a, b, c] : faces) {

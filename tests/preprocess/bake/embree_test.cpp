@@ -69,6 +69,8 @@ struct Agreement {
   int64_t unexplained = 0;  // of those, samples whose baked value exact arithmetic does not allow
 };
 
+constexpr int64_t kEnoughFailures = 20;  // each costs a look at every triangle
+
 // Every sample of the view at one sample a texel.
 void compareView(const CellSoup& soup, const RayTracer& tracer, const ViewFrame& frame, const BakedView& view,
                  int imageSize, Agreement& agreement) {
@@ -79,6 +81,7 @@ void compareView(const CellSoup& soup, const RayTracer& tracer, const ViewFrame&
       ++agreement.samples;
       agreement.hits += baked != kNothing;
       const bool coverage = (baked == kNothing) == (traced == kNothing);
+      if (agreement.unexplained > kEnoughFailures) return;
       if (coverage && (baked == traced || std::abs(baked - traced) <= kDepthTolerance)) continue;
       ++(coverage ? agreement.depthDiffers : agreement.coverageDiffers);
       if (truthAllows(soup, frame, u, v, baked)) continue;
@@ -156,8 +159,8 @@ TEST(BakerAgainstExactArithmetic, EverySampleOfASoupIsAllowed) {
     for (const glm::dvec3& direction : directions()) {
       const ViewFrame frame = viewFrame(direction);
       const BakedView view = bake(soup, frame, settings).view;
-      for (int y = 0; y < 128; y += 3) {
-        for (int x = 0; x < 128; x += 2) {
+      for (int y = 0; y < 128; y += 5) {
+        for (int x = 0; x < 128; x += 3) {
           const double u = texelCentre(x, 128), v = texelCentre(y, 128);
           wrong += !truthAllows(soup, frame, u, v, depthAt(view, x, y));
         }

@@ -137,7 +137,8 @@ TEST(ViewBakerCoverage, ATexelCoveredByHalfHasHalfItsColourAndHalfCoverage) {
   const ViewFrame frame = viewFrame(glm::dvec3(0, 0, 1));
   const double texel = texelSize(32);
   CellSoup soup;
-  addFacing(soup, frame, 0, 0, 2.5 * texel, 2 * texel, 0, 0xffffff);  // from the image's centre: texels 16, 17, half of 18
+  addFacing(soup, frame, 0, 0, 2.5 * texel, 2 * texel, 0,
+            0xffffff);  // from the image's centre: texels 16, 17, half of 18
   BakeSettings settings = settingsOf(32, 16);
   settings.sun = glm::vec3(0, 0, 1);
   const BakedView view = bake(soup, frame, settings).view;
@@ -170,9 +171,9 @@ TEST(ViewBakerDepth, OnlySamplesNearTheFrontOneCount) {
   const ViewFrame frame = viewFrame(glm::dvec3(0, 0, 1));
   const double texel = texelSize(32);
   CellSoup soup;
-  addFacing(soup, frame, 0, 0, texel / 4, texel, .5, 0xffffff);              // a quarter of texel (16, 16)
-  addFacing(soup, frame, 0, 0, texel, texel, .5 - 2.5 * texel, 0xffffff);    // near: counts
-  addFacing(soup, frame, texel, 0, 1.25 * texel, texel, .5, 0xffffff);       // a quarter of texel (17, 16)
+  addFacing(soup, frame, 0, 0, texel / 4, texel, .5, 0xffffff);                    // a quarter of texel (16, 16)
+  addFacing(soup, frame, 0, 0, texel, texel, .5 - 2.5 * texel, 0xffffff);          // near: counts
+  addFacing(soup, frame, texel, 0, 1.25 * texel, texel, .5, 0xffffff);             // a quarter of texel (17, 16)
   addFacing(soup, frame, texel, 0, 2 * texel, texel, .5 - 3.5 * texel, 0xffffff);  // too far below
   const BakedView view = bake(soup, frame, settingsOf(32, 16)).view;
   EXPECT_NEAR(depthAt(view, 16, 16), .5 - .75 * 2.5 * texel, 1e-6);
@@ -186,7 +187,7 @@ TEST(ViewBakerAntipode, IsTheViewBakedFromTheOtherSideBitForBit) {
   for (const int samples : {1, 4, 16, 64}) {
     for (const bool normals : {false, true}) {
       const BakeSettings settings = settingsOf(33, samples, normals);
-      for (size_t i = 0; i < 42; i += 5) {
+      for (size_t i = 0; i < 42; i += 9) {
         const glm::dvec3 direction = viewpoints->directions()[i];
         for (const CellSoup* soup : {&flat, &smooth}) {
           const BakedPair there = bake(*soup, viewFrame(direction), settings);
@@ -278,10 +279,12 @@ TEST(ViewBakerExtent, TheWholeGrownCubeIsInEveryView) {
     }
   }
   const auto viewpoints = Viewpoints::create(80);  // face centres: corners of the cube point at the image's edges
-  for (const glm::dvec3& direction : viewpoints->directions()) {
+  for (size_t i = 0; i < 80; i += 6) {
+    const glm::dvec3 direction = viewpoints->directions()[i];
     const BakedView view = bake(soup, viewFrame(direction), settingsOf(64, 64)).view;
     double area = 0, expected = 0;
-    for (size_t i = 3; i < view.rgba.size(); i += 4) area += view.rgba[i] * texelSize(64) * texelSize(64);
+    for (size_t alpha = 3; alpha < view.rgba.size(); alpha += 4)
+      area += view.rgba[alpha] * texelSize(64) * texelSize(64);
     for (int axis = 0; axis < 3; ++axis) expected += 4 * kCellGrowth * kCellGrowth * std::abs(direction[axis]);
     EXPECT_NEAR(area, expected, .005 * expected);  // of 512 samples along an edge, half a one is missed at each end
   }
@@ -289,8 +292,8 @@ TEST(ViewBakerExtent, TheWholeGrownCubeIsInEveryView) {
 
 TEST(ViewBakerTargets, EveryInstructionSetGivesTheSameBits) {
   SCOPED_TRACE("seed 51");
-  CellSoup flat = randomSoup(51, 1500);
-  const CellSoup sphere = sphereSoup(5, .9f);
+  CellSoup flat = randomSoup(51, 800);
+  const CellSoup sphere = sphereSoup(4, .9f);
   for (size_t i = 0; i < sphere.size(); ++i)
     addTriangle(flat, corner(sphere, 0, i), corner(sphere, 1, i), corner(sphere, 2, i), uint32_t(i * 977) & 0xffffff);
   const CellSoup smooth = withVertexNormals(flat);
@@ -305,7 +308,8 @@ TEST(ViewBakerTargets, EveryInstructionSetGivesTheSameBits) {
     for (const int samples : {1, 4, 16, 64})
       for (const CellSoup* soup : std::initializer_list<const CellSoup*>{&flat, &smooth})
         for (const glm::dvec3& direction : {kAskew, glm::dvec3(0, 1, 0)})
-          pairs.push_back(bake(*soup, viewFrame(direction), settingsOf(45, samples, samples == 4)));
+          pairs.push_back(
+              bake(*soup, viewFrame(direction), settingsOf(samples == 64 ? 17 : 45, samples, samples == 4)));
     hwy::SetSupportedTargetsForTest(0);
     if (expected.empty()) expected = pairs;
     for (size_t i = 0; i < pairs.size(); ++i) expectSame(pairs[i], expected[i]);

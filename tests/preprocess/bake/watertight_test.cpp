@@ -14,9 +14,7 @@ BakeSettings settingsOf(int imageSize, int samples) {
   return settings;
 }
 
-double cross(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
+double cross(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 // The outline of a convex body: Andrew's monotone chain (1979) over its projected corners, counter-clockwise.
 std::vector<glm::dvec3> outline(const CellSoup& soup, const ViewFrame& frame) {
@@ -52,17 +50,17 @@ double insideOutline(const std::vector<glm::dvec3>& hull, double u, double v) {
 
 TEST(Watertight, ASphereHasNoHolesAndNoFringeFromAnyDirection) {
   const auto viewpoints = Viewpoints::create(42);
-  for (const int splits : {0, 2, 4, 6}) {  // 8 to 32,768 triangles
+  for (const int splits : {0, 3, 6}) {  // 8 to 32,768 triangles
     SCOPED_TRACE(splits);
     const CellSoup soup = sphereSoup(splits, 1);
     int64_t inside = 0, holes = 0, fringe = 0;
     for (const glm::dvec3& direction : viewpoints->directions()) {
       const ViewFrame frame = viewFrame(direction);
       const std::vector<glm::dvec3> hull = outline(soup, frame);
-      const BakedView view = bake(soup, frame, settingsOf(96, 1)).view;
-      for (int y = 0; y < 96; ++y) {
-        for (int x = 0; x < 96; ++x) {
-          const double distance = insideOutline(hull, texelCentre(x, 96), texelCentre(y, 96));
+      const BakedView view = bake(soup, frame, settingsOf(72, 1)).view;
+      for (int y = 0; y < 72; ++y) {
+        for (int x = 0; x < 72; ++x) {
+          const double distance = insideOutline(hull, texelCentre(x, 72), texelCentre(y, 72));
           const bool hit = depthAt(view, x, y) != kNothing;
           inside += distance > kEdgeTolerance;
           holes += distance > kEdgeTolerance && !hit;
@@ -70,7 +68,7 @@ TEST(Watertight, ASphereHasNoHolesAndNoFringeFromAnyDirection) {
         }
       }
     }
-    EXPECT_GT(inside, 42 * 500);
+    EXPECT_GT(inside, 42 * 300);
     EXPECT_EQ(holes, 0);
     EXPECT_EQ(fringe, 0);
   }

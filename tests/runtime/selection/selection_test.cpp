@@ -211,7 +211,7 @@ TEST(Selection, impostorsKeepTheLevelRuleAndTheNearestView) {
   EXPECT_GT(inner, 0u);
 }
 
-TEST(Selection, theTriangleBudgetIsKeptAndSpentNearestFirst) {
+TEST(Selection, theTriangleBudgetIsKeptAndSpentOnTheLargestTexelsFirst) {
   const Grid grid{{0, 0, 0}, 1, 24};
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const RandomTree tree(seed, grid);
@@ -222,25 +222,25 @@ TEST(Selection, theTriangleBudgetIsKeptAndSpentNearestFirst) {
         const Cut cut = selectCut(tree.directory, viewpoints(), cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth,
                                   kHeight, mode(RenderMode::automatic, budget));
         uint64_t sum = 0, withoutViews = 0;
-        double farthestTriangles = 0, nearestImpostor = INFINITY;
+        double smallestTriangles = INFINITY, largestImpostor = 0;
         for (const CutEntry& entry : cut.entries) {
           const CellRecord& cell = cells[entry.cell];
           const glm::dvec3 nearest =
               glm::min(glm::max(eye, grid.worldFromGrid(cell.content.min)), grid.worldFromGrid(cell.content.max));
           const double distance = glm::length(eye - nearest);
-          const bool tooNear =
-              texelSize(64) * cellHalfSide(grid, cell.key) > kTexelPixels * distance * 2 * std::tan(0.45) / kHeight;
+          const double texelPixels =
+              texelSize(64) * cellHalfSide(grid, cell.key) / (distance * 2 * std::tan(0.45) / kHeight);
           if (entry.representation == Representation::triangles) {
             sum += cell.triangles;
             if (cell.firstViewPage == kNone) withoutViews += cell.triangles;
-            if (cell.firstViewPage != kNone) farthestTriangles = std::max(farthestTriangles, distance);
-          } else if (tooNear) {
-            nearestImpostor = std::min(nearestImpostor, distance);
+            if (cell.firstViewPage != kNone) smallestTriangles = std::min(smallestTriangles, texelPixels);
+          } else if (texelPixels > kTexelPixels) {
+            largestImpostor = std::max(largestImpostor, texelPixels);
           }
         }
         EXPECT_EQ(sum, cut.triangles);
         EXPECT_LE(cut.triangles, std::max(budget, withoutViews));
-        EXPECT_LE(farthestTriangles, nearestImpostor);
+        EXPECT_GE(smallestTriangles * (1 + 1e-9), largestImpostor);
       }
   }
 }

@@ -41,7 +41,7 @@ Result<std::set<std::string>> parseNames(const std::string& names) {
 }  // namespace
 
 Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,
-                                                uint64_t triangleBudget) {
+                                                const SelectionSettings& selection) {
   FARCELL_ASSIGN(const std::set<std::string> asked, parseNames(names));
   std::vector<RendererPlan> plans;
   for (const Known& known : kKnown) {
@@ -51,8 +51,8 @@ Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int wi
     settings.height = height;
     settings.samplesPerPixel = known.samplesPerPixel;
     settings.kind = known.kind;
+    settings.selection = selection;
     settings.selection.mode = known.mode;
-    settings.selection.triangleBudget = triangleBudget;
     plans.push_back({known.name, known.rendererClass, settings});
   }
   return plans;

@@ -21,7 +21,8 @@ inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,tri
 
 // names: comma-separated, any order, repetitions allowed. full-1spp and full-4spp always come first: full geometry is
 // what the user would otherwise look at. invalidArgument for an unknown name, unsupported for B.
+// The level rule and the budget are `selection`'s; its mode is the renderer's own.
 Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,
-                                                uint64_t triangleBudget);
+                                                const SelectionSettings& selection);
 
 }  // namespace farcell

@@ -13,7 +13,7 @@ namespace farcell {
 namespace {
 
 TEST(RendererPlan, FullGeometryAtOneAndFourSamplesIsAlwaysThere) {
-  const auto plans = planRenderers("A", 640, 480, 1234);
+  const auto plans = planRenderers("A", 640, 480, {.triangleBudget = 1234});
   ASSERT_TRUE(plans) << plans.error().message;
   ASSERT_EQ(plans->size(), 3u);
   EXPECT_EQ((*plans)[0].name, "full-1spp");
@@ -27,7 +27,7 @@ TEST(RendererPlan, FullGeometryAtOneAndFourSamplesIsAlwaysThere) {
 }
 
 TEST(RendererPlan, EveryNameHasItsClassModeAndKind) {
-  const auto plans = planRenderers(kAllRenderers, 10, 10, 777);
+  const auto plans = planRenderers(kAllRenderers, 10, 10, {.triangleBudget = 777});
   ASSERT_TRUE(plans) << plans.error().message;
   std::string line;
   for (const RendererPlan& plan : *plans) line += plan.name + ":" + plan.rendererClass + " ";
@@ -44,17 +44,17 @@ TEST(RendererPlan, EveryNameHasItsClassModeAndKind) {
 }
 
 TEST(RendererPlan, RepetitionsCountOnceAndWrongNamesAreNamed) {
-  const auto twice = planRenderers("auto,auto,full-1spp", 10, 10, 1);
+  const auto twice = planRenderers("auto,auto,full-1spp", 10, 10, {});
   ASSERT_TRUE(twice);
   EXPECT_EQ(twice->size(), 3u);
-  const auto wrong = planRenderers("auto,impostor", 10, 10, 1);
+  const auto wrong = planRenderers("auto,impostor", 10, 10, {});
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().kind, ErrorKind::invalidArgument);
   EXPECT_NE(wrong.error().message.find("'impostor'"), std::string::npos);
-  const auto reserved = planRenderers("B", 10, 10, 1);
+  const auto reserved = planRenderers("B", 10, 10, {});
   ASSERT_FALSE(reserved);
   EXPECT_EQ(reserved.error().kind, ErrorKind::unsupported);
-  EXPECT_FALSE(planRenderers("auto,,A", 10, 10, 1));
+  EXPECT_FALSE(planRenderers("auto,,A", 10, 10, {}));
 }
 
 Model modelAround(glm::dvec3 min, glm::dvec3 max, UpAxis up) {

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 Entry entryOf(const std::string& camera, const std::string& renderer, double paperError, double impostorShare = 0) {
   Entry entry;
   entry.camera = camera;
-  const auto plans = planRenderers(kAllRenderers, 64, 48, 500);
+  const auto plans = planRenderers(kAllRenderers, 64, 48, {.triangleBudget = 500});
   for (const RendererPlan& plan : plans.value())
     if (plan.name == renderer) entry.renderer = plan;
   entry.metrics.paperError = paperError;
