@@ -92,8 +92,9 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
-  const FrameCamera frameCamera =
-      makeFrameCamera(pack.directory(), camera, settings.width, settings.height, cut, jitterPx);
+  const FrameCamera frameCamera = makeFrameCamera(
+      pack.directory(), camera,
+      {settings.width, settings.height, jitterPx, settings.samplesPerPixel > 1 ? kMultisamples : 1}, cut);
   FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, counts));
   frame.resolve();
   glFinish();

@@ -24,8 +24,7 @@ Result<> readAll(int descriptor, const std::string& path, uint64_t offset, std::
     const ssize_t got = ::pread(descriptor, out.data() + done, out.size() - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return ioError(path, fmt::format("cannot read at offset {}", offset + done).c_str(), errno);
-    if (got == 0)
-      return corrupt(path, offset + done, fmt::format("{} more bytes", out.size() - done), "end of file");
+    if (got == 0) return corrupt(path, offset + done, fmt::format("{} more bytes", out.size() - done), "end of file");
     done += static_cast<size_t>(got);
   }
   return {};
@@ -63,9 +62,7 @@ InputFile::InputFile(int descriptor, std::string path, uint64_t sizeBytes)
     : descriptor_(descriptor), path_(std::move(path)), sizeBytes_(sizeBytes) {}
 
 InputFile::InputFile(InputFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      path_(std::move(other.path_)),
-      sizeBytes_(other.sizeBytes_) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), sizeBytes_(other.sizeBytes_) {}
 
 InputFile& InputFile::operator=(InputFile&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
@@ -85,15 +82,15 @@ Result<InputFile> InputFile::open(const std::filesystem::path& path) {
   InputFile file(descriptor, path.string(), 0);
   struct stat info {};
   if (::fstat(descriptor, &info) != 0) return ioError(path, "cannot stat", errno);
-  if (!S_ISREG(info.st_mode)) return fail(ErrorKind::io, "{}: expected a regular file, found something else", file.path_);
+  if (!S_ISREG(info.st_mode))
+    return fail(ErrorKind::io, "{}: expected a regular file, found something else", file.path_);
   file.sizeBytes_ = static_cast<uint64_t>(info.st_size);
   return file;
 }
 
 Result<> InputFile::readAt(uint64_t offset, std::span<std::byte> out) const {
   if (offset > sizeBytes_ || out.size() > sizeBytes_ - offset)
-    return corrupt(path_, offset, fmt::format("{} bytes", out.size()),
-                   fmt::format("a file of {} bytes", sizeBytes_));
+    return corrupt(path_, offset, fmt::format("{} bytes", out.size()), fmt::format("a file of {} bytes", sizeBytes_));
   return readAll(descriptor_, path_, offset, out);
 }
 

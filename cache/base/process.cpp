@@ -9,7 +9,9 @@ rusage usage() {
   ::getrusage(RUSAGE_SELF, &value);
   return value;
 }
-double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 }  // namespace
 
 uint64_t peakRssBytes() { return static_cast<uint64_t>(usage().ru_maxrss) * 1024; }

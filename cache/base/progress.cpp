@@ -51,7 +51,8 @@ void Progress::print(uint64_t done, bool last) {
   if (!terminal_ && !last && tenths <= tenthsPrinted_) return;
   tenthsPrinted_ = tenths;
   const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
-  std::string line = fmt::format("{:<10} {:3.0f}% {:>12}/{} {}, {:.3g}/s", stage_, share * 100, done, total_, unit_, rate);
+  std::string line =
+      fmt::format("{:<10} {:3.0f}% {:>12}/{} {}, {:.3g}/s", stage_, share * 100, done, total_, unit_, rate);
   if (last)
     line += fmt::format(", {:.1f} s", seconds);
   else if (share > 0)

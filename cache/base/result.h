@@ -35,8 +35,8 @@ template <class... Args>
 }
 
 // The usual shape of "this file is not what it claims to be".
-[[nodiscard]] inline tl::unexpected<Error> corrupt(const std::string& path, uint64_t offset, const std::string& expected,
-                                                   const std::string& found) {
+[[nodiscard]] inline tl::unexpected<Error> corrupt(const std::string& path, uint64_t offset,
+                                                   const std::string& expected, const std::string& found) {
   return fail(ErrorKind::corrupt, "{}: offset {}: expected {}, found {}", path, offset, expected, found);
 }
 
@@ -47,16 +47,15 @@ template <class... Args>
 
 // FARCELL_TRY(expression): returns the error of a Result<...> from the enclosing function.
 #define FARCELL_TRY(...) FARCELL_TRY_(FARCELL_CONCAT(farcellTried, __COUNTER__), __VA_ARGS__)
-#define FARCELL_TRY_(tried, ...)                                                                   \
-  do {                                                                                             \
-    if (auto tried = (__VA_ARGS__); !tried)                                                        \
-      return tl::unexpected<::farcell::Error>(std::move(tried).error());                           \
+#define FARCELL_TRY_(tried, ...)                                                                               \
+  do {                                                                                                         \
+    if (auto tried = (__VA_ARGS__); !tried) return tl::unexpected<::farcell::Error>(std::move(tried).error()); \
   } while (false)
 
 // FARCELL_ASSIGN(auto x, expression): the same, and names the value.
 #define FARCELL_ASSIGN(declaration, ...) \
   FARCELL_ASSIGN_(FARCELL_CONCAT(farcellAssigned, __COUNTER__), declaration, __VA_ARGS__)
-#define FARCELL_ASSIGN_(assigned, declaration, ...)                                                \
-  auto assigned = (__VA_ARGS__);                                                                   \
-  if (!assigned) return tl::unexpected<::farcell::Error>(std::move(assigned).error());             \
+#define FARCELL_ASSIGN_(assigned, declaration, ...)                                    \
+  auto assigned = (__VA_ARGS__);                                                       \
+  if (!assigned) return tl::unexpected<::farcell::Error>(std::move(assigned).error()); \
   declaration = std::move(*assigned)

@@ -35,16 +35,14 @@ Grid gridAround(glm::dvec3 min, glm::dvec3 max) {
   double side = std::max({extent.x, extent.y, extent.z});
   // A point or a box near the coordinates' own precision still gets a cube that can be cut, and whose margin is some
   // units in their last place.
-  const double magnitude = std::max({std::abs(min.x), std::abs(min.y), std::abs(min.z), std::abs(max.x),
-                                     std::abs(max.y), std::abs(max.z)});
+  const double magnitude =
+      std::max({std::abs(min.x), std::abs(min.y), std::abs(min.z), std::abs(max.x), std::abs(max.y), std::abs(max.z)});
   side = std::max({side, magnitude * 1e-11, std::numeric_limits<double>::min() * 1e30});
   side *= 1.0 + 1.0 / 4096;
   return Grid{(min * 0.5 + max * 0.5) - glm::dvec3(side * 0.5), side, kMaxGridBits};
 }
 
-uint64_t mortonCode(const CellKey& key) {
-  return spreadBits(key.x) | spreadBits(key.y) << 1 | spreadBits(key.z) << 2;
-}
+uint64_t mortonCode(const CellKey& key) { return spreadBits(key.x) | spreadBits(key.y) << 1 | spreadBits(key.z) << 2; }
 
 GridBox cellBox(const Grid& grid, const CellKey& key) {
   const int shift = grid.bits - static_cast<int>(key.level);

@@ -13,24 +13,24 @@ enum class UpAxis : uint32_t { x = 0, y = 1, z = 2 };
 
 // Everything that decides a pack's content, besides the input itself.
 struct BuildSettings {
-  int views = 42;              // size of the viewpoint set, see viewpoints.h
-  int imageSize = 128;         // texels along a view's edge: a power of two, 16..1024
-  int samples = 16;            // per texel: 1, 4, 16 or 64
-  int leafTriangles = 16384;   // a cell of more is split, within maxLevel
-  int maxLevel = 12;           // octree depth limit
-  int fixedLevel = -1;         // >= 0: all leaves at this depth, as in the 2010 paper
+  int views = 42;             // size of the viewpoint set, see viewpoints.h
+  int imageSize = 128;        // texels along a view's edge: a power of two, 16..1024
+  int samples = 16;           // per texel: 1, 4, 16 or 64
+  int leafTriangles = 16384;  // a cell of more is split, within maxLevel
+  int maxLevel = 12;          // octree depth limit
+  int fixedLevel = -1;        // >= 0: all leaves at this depth, as in the 2010 paper
   UpAxis up = UpAxis::z;
   double metresPerUnit = 1;
-  bool bakeNormals = false;    // views keep a prefiltered normal beside the lit colour
+  bool bakeNormals = false;  // views keep a prefiltered normal beside the lit colour
   bool operator==(const BuildSettings&) const = default;
 };
 
 struct Model {
   Grid grid;
-  GridBox bounds;              // of all accepted triangles
+  GridBox bounds;  // of all accepted triangles
   BuildSettings settings;
-  bool hasNormals = false;     // the file gave vertex normals: smooth shading; else faces are flat
-  bool hasColours = false;     // the file gave colours; else kDefaultAlbedo
+  bool hasNormals = false;  // the file gave vertex normals: smooth shading; else faces are flat
+  bool hasColours = false;  // the file gave colours; else kDefaultAlbedo
   bool operator==(const Model&) const = default;
 };
 

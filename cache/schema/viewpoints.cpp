@@ -23,11 +23,21 @@ Icosphere icosahedron() {
   const double length = std::sqrt(1.0 + golden * golden);
   const double a = 1.0 / length;
   const double b = golden / length;
-  return {{{-a, b, 0}, {a, b, 0}, {-a, -b, 0}, {a, -b, 0}, {0, -a, b}, {0, a, b}, {0, -a, -b}, {0, a, -b}, {b, 0, -a},
-           {b, 0, a}, {-b, 0, -a}, {-b, 0, a}},
-          {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-           {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-           {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+  return {{{-a, b, 0},
+           {a, b, 0},
+           {-a, -b, 0},
+           {a, -b, 0},
+           {0, -a, b},
+           {0, a, b},
+           {0, -a, -b},
+           {0, a, -b},
+           {b, 0, -a},
+           {b, 0, a},
+           {-b, 0, -a},
+           {-b, 0, a}},
+          {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+           {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+           {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 }
 
 // Sums and norms that do not depend on the order of the corners or of the axes, so that mirrored and turned faces give
@@ -80,12 +90,15 @@ glm::dvec3 nearUnitLength(glm::dvec3 direction) {
 
 // Lowest index whose dot product with `direction` (near unit length) is the largest. What lies within the rounding of
 // a dot product is a tie: on the set's many symmetry planes the answer must not depend on the order of additions.
-int largestDot(std::span<const glm::dvec3> directions, glm::dvec3 direction) {
+int largestDot(std::span<const glm::dvec3> directions, glm::dvec3 direction, int leftOut = -1) {
   constexpr double kTie = 2e-15;
   double largest = -INFINITY;
-  for (const glm::dvec3& candidate : directions) largest = std::max(largest, glm::dot(candidate, direction));
+  const auto dotOf = [&](size_t i) {
+    return static_cast<int>(i) == leftOut ? -INFINITY : glm::dot(directions[i], direction);
+  };
+  for (size_t i = 0; i < directions.size(); ++i) largest = std::max(largest, dotOf(i));
   size_t best = 0;
-  while (best + 1 < directions.size() && glm::dot(directions[best], direction) < largest - kTie) ++best;
+  while (best + 1 < directions.size() && dotOf(best) < largest - kTie) ++best;
   return static_cast<int>(best);
 }
 
@@ -109,7 +122,8 @@ Result<Viewpoints> Viewpoints::create(int count) {
     sphere = subdivided(sphere);
   }
   return fail(ErrorKind::invalidArgument,
-              "views: expected one of 12, 42, 162, 642 (vertices) or 20, 80, 320, 1280 (face centres), found {}", count);
+              "views: expected one of 12, 42, 162, 642 (vertices) or 20, 80, 320, 1280 (face centres), found {}",
+              count);
 }
 
 void Viewpoints::pairAntipodes() {
@@ -138,6 +152,11 @@ void Viewpoints::groupViews() {
 }
 
 int Viewpoints::nearest(glm::dvec3 direction) const { return largestDot(directions_, nearUnitLength(direction)); }
+
+std::array<int, 2> Viewpoints::nearestTwo(glm::dvec3 direction) const {
+  const int first = nearest(direction);
+  return {first, largestDot(directions_, nearUnitLength(direction), first)};
+}
 
 Viewpoints::Triple Viewpoints::nearestThree(glm::dvec3 direction) const {
   FARCELL_CHECK(hasTriangles());

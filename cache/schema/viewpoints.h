@@ -31,6 +31,8 @@ class Viewpoints {
 
   // The view with the smallest angle to `direction` (any length but zero); on a tie the lowest index.
   int nearest(glm::dvec3 direction) const;
+  // That view, and the one that would be nearest without it.
+  std::array<int, 2> nearestTwo(glm::dvec3 direction) const;
 
   struct Triple {
     std::array<int, 3> views;       // by falling weight; on a tie the lower index first

@@ -115,9 +115,10 @@ Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::file
   Directory& directory = result.directory;
   directory.sourceName = mesh.filename().string();
   FARCELL_ASSIGN(directory.sourceHash, hashFile(mesh));
-  FARCELL_ASSIGN(const Partition partition,
-                 partitionMesh(*reader, options.settings,
-                               options.scratchDirectory.empty() ? beside : options.scratchDirectory, threads, progress));
+  FARCELL_ASSIGN(
+      const Partition partition,
+      partitionMesh(*reader, options.settings, options.scratchDirectory.empty() ? beside : options.scratchDirectory,
+                    threads, progress));
   CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   directory.model = {partition.grid, partition.bounds, options.settings, reader->info().hasNormals,
                      reader->info().hasColours};

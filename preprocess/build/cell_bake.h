@@ -31,7 +31,7 @@ struct CellPages {
   uint64_t viewsEmpty = 0;
   uint64_t viewsCheaperAsTriangles = 0;
   uint64_t impostorRawBytes = 0;
-  double bakeSeconds = 0;          // of this thread
+  double bakeSeconds = 0;  // of this thread
   double encodeSeconds = 0;
 };
 

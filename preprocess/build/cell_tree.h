@@ -10,8 +10,8 @@
 namespace farcell {
 
 struct CellTree {
-  std::vector<CellRecord> cells;   // by level, then Morton code; pages not yet filled in
-  std::vector<uint32_t> leafOf;    // per cell: index of its leaf, kNone for inner cells
+  std::vector<CellRecord> cells;  // by level, then Morton code; pages not yet filled in
+  std::vector<uint32_t> leafOf;   // per cell: index of its leaf, kNone for inner cells
 };
 
 CellTree cellTreeOf(std::span<const Leaf> leaves, const TriangleLists& triangles);

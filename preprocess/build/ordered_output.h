@@ -17,7 +17,8 @@ namespace farcell {
 template <class T>
 class OrderedOutput {
  public:
-  OrderedOutput(size_t window, std::function<Result<>(size_t, T&&)> write) : window_(window), write_(std::move(write)) {}
+  OrderedOutput(size_t window, std::function<Result<>(size_t, T&&)> write)
+      : window_(window), write_(std::move(write)) {}
 
   void put(size_t index, Result<T> value) {
     std::unique_lock lock(mutex_);
@@ -25,7 +26,8 @@ class OrderedOutput {
     if (!error_ && !value) error_ = value.error();
     if (!error_) waiting_.emplace(index, std::move(*value));
     while (!error_ && !waiting_.empty() && waiting_.begin()->first == next_) {
-      if (const Result<> written = write_(next_, std::move(waiting_.begin()->second)); !written) error_ = written.error();
+      if (const Result<> written = write_(next_, std::move(waiting_.begin()->second)); !written)
+        error_ = written.error();
       waiting_.erase(waiting_.begin());
       ++next_;
     }

@@ -74,8 +74,7 @@ void appendCut(const GridTriangle& triangle, const LocalFrame& local, bool withN
   polygon.count = 3;
   for (int k = 0; k < 3; ++k) {
     const uint32_t colour = triangle.colours[k];
-    polygon.corners[k] = {local(triangle.corners[k]),
-                          glm::dvec3(colour & 255, colour >> 8 & 255, colour >> 16 & 255),
+    polygon.corners[k] = {local(triangle.corners[k]), glm::dvec3(colour & 255, colour >> 8 & 255, colour >> 16 & 255),
                           withNormals ? unpackNormal(triangle.normals[k]) : glm::vec3(0)};
   }
   for (int axis = 0; axis < 3; ++axis)

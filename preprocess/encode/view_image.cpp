@@ -85,8 +85,10 @@ ViewImage quantisedView(const BakedView& baked, uint32_t view, int imageSize) {
   for (int row = 0; row < baked.height; ++row) {
     for (int column = 0; column < baked.width; ++column) {
       const size_t from = static_cast<size_t>(row * baked.width + column);
-      const size_t to = static_cast<size_t>((row + baked.y0 - rectangle.y0) * rectangle.width + column + baked.x0 - rectangle.x0);
-      for (size_t channel = 0; channel < 4; ++channel) image.rgba[4 * to + channel] = unorm8(baked.rgba[4 * from + channel]);
+      const size_t to =
+          static_cast<size_t>((row + baked.y0 - rectangle.y0) * rectangle.width + column + baked.x0 - rectangle.x0);
+      for (size_t channel = 0; channel < 4; ++channel)
+        image.rgba[4 * to + channel] = unorm8(baked.rgba[4 * from + channel]);
       if (baked.normal.empty() || baked.depth[from] == kEmptyDepth) continue;
       const glm::vec2 p = shared::octahedralFromUnit(
           glm::vec3(baked.normal[3 * from], baked.normal[3 * from + 1], baked.normal[3 * from + 2]));

@@ -12,9 +12,7 @@ namespace {
 
 using Vector = std::array<int64_t, 3>;
 
-Vector difference(GridPoint a, GridPoint b) {
-  return {int64_t{a.x} - b.x, int64_t{a.y} - b.y, int64_t{a.z} - b.z};
-}
+Vector difference(GridPoint a, GridPoint b) { return {int64_t{a.x} - b.x, int64_t{a.y} - b.y, int64_t{a.z} - b.z}; }
 
 // The nearest integer to a rational; halves go up. denominator > 0.
 int64_t roundedQuotient(int64_t numerator, int64_t denominator) {
@@ -45,8 +43,8 @@ GridCorner cutEdge(GridCorner a, GridCorner b, int axis, int32_t plane) {
   const double t = static_cast<double>(below) / static_cast<double>(below + above);
   GridCorner cut{a.position, mixColours(a.colour, b.colour, t), mixNormals(a.normal, b.normal, t)};
   for (int other = 0; other < 3; ++other)
-    cut.position[other] = static_cast<int32_t>(
-        roundedQuotient(a.position[other] * above + b.position[other] * below, below + above));
+    cut.position[other] =
+        static_cast<int32_t>(roundedQuotient(a.position[other] * above + b.position[other] * below, below + above));
   cut.position[axis] = plane;
   return cut;
 }
@@ -54,12 +52,14 @@ GridCorner cutEdge(GridCorner a, GridCorner b, int axis, int32_t plane) {
 // Rounding may bring corners together; a polygon of fewer than three has no area.
 void push(GridPolygon& polygon, const GridCorner& corner) {
   if (polygon.count > 0 && polygon.corners[polygon.count - 1].position == corner.position) return;
-  if (polygon.count == GridPolygon::kMaxCorners) return;  // not convex by more than rounding: cannot come from a triangle
+  if (polygon.count == GridPolygon::kMaxCorners)
+    return;  // not convex by more than rounding: cannot come from a triangle
   polygon.corners[polygon.count++] = corner;
 }
 
 void close(GridPolygon& polygon) {
-  while (polygon.count > 1 && polygon.corners[polygon.count - 1].position == polygon.corners[0].position) --polygon.count;
+  while (polygon.count > 1 && polygon.corners[polygon.count - 1].position == polygon.corners[0].position)
+    --polygon.count;
   if (polygon.count < 3) polygon.count = 0;
 }
 
@@ -93,9 +93,8 @@ GridBox boxOf(const GridPolygon& polygon) {
 void appendTriangles(const GridPolygon& polygon, std::vector<GridTriangle>& out) {
   for (int i = 2; i < polygon.count; ++i) {
     const GridCorner &a = polygon.corners[0], &b = polygon.corners[i - 1], &c = polygon.corners[i];
-    const GridTriangle part{{a.position, b.position, c.position},
-                            {a.colour, b.colour, c.colour},
-                            {a.normal, b.normal, c.normal}};
+    const GridTriangle part{
+        {a.position, b.position, c.position}, {a.colour, b.colour, c.colour}, {a.normal, b.normal, c.normal}};
     if (!isDegenerate(part)) out.push_back(part);
   }
 }

@@ -87,7 +87,8 @@ struct ChunkTree {
 void chooseChunks(const Spool& spool, const BuildSettings& settings, const CellKey& key, ChunkTree& tree) {
   const uint64_t count = spool.histogram[key.level][mortonCode(key)];
   const uint32_t deepest = settings.fixedLevel >= 0 ? static_cast<uint32_t>(settings.fixedLevel) : kHistogramLevel;
-  if (count <= kChunkTriangles || key.level >= std::min({deepest, kHistogramLevel, static_cast<uint32_t>(settings.maxLevel)})) {
+  if (count <= kChunkTriangles ||
+      key.level >= std::min({deepest, kHistogramLevel, static_cast<uint32_t>(settings.maxLevel)})) {
     tree.nodes[key] = static_cast<int>(tree.chunks.size());
     tree.chunks.push_back(key);
     return;
@@ -180,12 +181,13 @@ class LeafSplitter {
     const auto add = [&](GridPoint a, GridPoint b, GridPoint c) {
       areaSteps += 0.5 * glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
     };
-    for (const GridTriangle& triangle : pieces.whole) add(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
+    for (const GridTriangle& triangle : pieces.whole)
+      add(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
     for (const GridPolygon& polygon : pieces.cut)
       for (int i = 2; i < polygon.count; ++i)
         add(polygon.corners[0].position, polygon.corners[i - 1].position, polygon.corners[i].position);
-    const double texelSteps =
-        texelSize(settings_.imageSize) * 0.5 * static_cast<double>(int64_t{1} << (grid_.bits - static_cast<int>(key.level)));
+    const double texelSteps = texelSize(settings_.imageSize) * 0.5 *
+                              static_cast<double>(int64_t{1} << (grid_.bits - static_cast<int>(key.level)));
     return std::max(1.0, areaSteps / (4 * texelSteps * texelSteps));
   }
 
@@ -242,8 +244,7 @@ Result<std::vector<Leaf>> splitChunks(const ChunkTree& tree, const TriangleLists
     if (errors[chunk]) return tl::unexpected<Error>(*errors[chunk]);
     leaves.insert(leaves.end(), leavesOfChunk[chunk].begin(), leavesOfChunk[chunk].end());
   }
-  std::sort(leaves.begin(), leaves.end(),
-            [](const Leaf& a, const Leaf& b) { return byLevelThenMorton(a.key, b.key); });
+  std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return byLevelThenMorton(a.key, b.key); });
   return leaves;
 }
 

@@ -38,7 +38,7 @@ struct Partition {
   MeshCounts counts;
   std::vector<Leaf> leaves;  // by level, then Morton code
   TriangleLists triangles;
-  double splitSeconds = 0;   // steps 3 and 4
+  double splitSeconds = 0;  // steps 3 and 4
 };
 
 // invalidArgument when the mesh has no triangle that can be drawn.

@@ -16,7 +16,7 @@ struct Spool {
   Grid grid;
   GridBox bounds;
   MeshCounts counts;
-  TriangleLists triangles;                                         // list 0: everything
+  TriangleLists triangles;                                           // list 0: everything
   std::array<std::vector<uint64_t>, kHistogramLevel + 1> histogram;  // per level, by Morton code of the cell
 };
 

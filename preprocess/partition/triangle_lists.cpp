@@ -50,7 +50,8 @@ Result<> TriangleLists::forEachPortion(size_t list, size_t portion,
   for (const Run& run : lists_[list].runs) {
     for (uint64_t first = 0; first < run.size; first += portion) {
       buffer.resize(std::min<uint64_t>(portion, run.size - first));
-      FARCELL_TRY(file_.readAt(run.offsetBytes + first * sizeof(GridTriangle), std::as_writable_bytes(std::span(buffer))));
+      FARCELL_TRY(
+          file_.readAt(run.offsetBytes + first * sizeof(GridTriangle), std::as_writable_bytes(std::span(buffer))));
       FARCELL_TRY(sink(buffer));
     }
   }

@@ -27,15 +27,14 @@ glm::vec4 row(glm::dvec3 v) { return glm::vec4(glm::vec3(v), 0.0f); }
 
 }  // namespace
 
-FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, int width, int height, const Cut& cut,
-                            glm::dvec2 jitterPx) {
+FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, const FrameView& view, const Cut& cut) {
   const Model& model = directory.model;
   const CameraAxes axes = cameraAxes(camera);
   const double tanY = std::tan(camera.fovYRad / 2);
-  const double tanX = tanY * width / height;
+  const double tanX = tanY * view.width / view.height;
   const double rootSidesPerStep = std::ldexp(1.0, -model.grid.bits);
   FrameCamera frame;
-  frame.pixelAngle = 2 * tanY / height;
+  frame.pixelAngle = 2 * tanY / view.height;
   glm::ivec3 whole;
   glm::dvec3 fraction;
   for (int axis = 0; axis < 3; ++axis) {
@@ -45,20 +44,22 @@ FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, in
     fraction[axis] = frame.eyeSteps[axis] - whole[axis];
   }
   const glm::dvec3 clipW = -axes.back * rootSidesPerStep;
-  const glm::dvec3 clipX = axes.right * (rootSidesPerStep / tanX) + clipW * (2 * jitterPx.x / width);
-  const glm::dvec3 clipY = axes.up * (rootSidesPerStep / tanY) + clipW * (2 * jitterPx.y / height);
+  const glm::dvec3 clipX = axes.right * (rootSidesPerStep / tanX) + clipW * (2 * view.jitterPx.x / view.width);
+  const glm::dvec3 clipY = axes.up * (rootSidesPerStep / tanY) + clipW * (2 * view.jitterPx.y / view.height);
   // The nearest content may lie in a corner of the picture, where the depth is less than the distance.
   const double cosCorner = 1 / std::sqrt(1 + tanX * tanX + tanY * tanY);
   const double nearest = nearestContentSteps(directory, cut, frame.eyeSteps) * rootSidesPerStep;
   const double near = std::max(kMinNear, 0.5 * cosCorner * nearest);
   const int imageSize = model.settings.imageSize;
-  frame.uniforms = {row(clipX),
-                    row(clipY),
-                    row(clipW),
-                    glm::ivec4(whole, 0),
-                    glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
-                    glm::vec4(sunDirection(model.settings.up), 0.0f),
-                    glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize), 0, 0)};
+  frame.uniforms = {
+      row(clipX),
+      row(clipY),
+      row(clipW),
+      glm::ivec4(whole, 0),
+      glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
+      glm::vec4(sunDirection(model.settings.up), 0.0f),
+      glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize),
+                static_cast<float>(view.impostorRays), static_cast<float>(std::log2(view.impostorRays) / 2))};
   return frame;
 }
 

@@ -17,10 +17,15 @@ struct FrameCamera {
   double pixelAngle = 0;   // edge of a pixel at distance 1 along the view axis
 };
 
-// jitterPx: the picture is moved by this many pixels (x right, y up).
+struct FrameView {
+  int width = 0;
+  int height = 0;
+  glm::dvec2 jitterPx{0};  // the picture is moved by this many pixels (x right, y up)
+  int impostorRays = 1;    // per pixel, through impostors of kind A: 1 or 4
+};
+
 // The near plane is half way to the nearest content box of the cut, and not nearer than 2^-20 of the root's side:
 // closer, the depth of a triangle that reaches from there to far away would drown in float32.
-FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, int width, int height, const Cut& cut,
-                            glm::dvec2 jitterPx);
+FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, const FrameView& view, const Cut& cut);
 
 }  // namespace farcell

@@ -96,26 +96,41 @@ Result<> FramePainter::paintImpostors(const Cut& cut, const FrameCamera& camera,
   for (size_t i = cut.entries.size(); i-- > 0;) {
     const CutEntry& entry = cut.entries[i];
     if (entry.representation != Representation::impostor) continue;
-    const ResidentView* view = views_.keep(entry.cell, entry.view);
-    if (view == nullptr) {
-      FARCELL_ASSIGN(const ViewImage image, readView(entry.cell, entry.view, counts));
-      view = views_.add(entry.cell, entry.view, image);
-      if (view == nullptr) {
-        drawImpostors(portion, kind);
-        portion.clear();
-        views_.beginPortion();
-        view = views_.add(entry.cell, entry.view, image);
-        FARCELL_CHECK(view != nullptr);
-      }
+    FARCELL_ASSIGN(std::optional<ViewPair> pair, residentPair(entry, kind, counts));
+    if (!pair) {
+      drawImpostors(portion, kind);
+      portion.clear();
+      views_.beginPortion();
+      FARCELL_ASSIGN(pair, residentPair(entry, kind, counts));
+      FARCELL_CHECK(pair.has_value());
     }
-    if (view->layer < 0) continue;
-    portion.push_back(makeImpostorInstance(directory.model, directory.cells[entry.cell],
-                                           viewpoints_.directions()[entry.view], *view, camera));
+    const auto& [nearest, second] = *pair;
+    if (nearest.view.layer < 0 && second.view.layer < 0) continue;
+    portion.push_back(makeImpostorInstance(directory.model, directory.cells[entry.cell], nearest, second, camera));
     ++counts.impostors;
-    counts.texels += uint64_t{view->width} * view->height;
+    counts.texels += uint64_t{nearest.view.width} * nearest.view.height;
+    counts.texels += uint64_t{second.view.width} * second.view.height;
   }
   drawImpostors(portion, kind);
   return {};
+}
+
+// Nothing when the views do not fit beside those of this portion.
+Result<std::optional<FramePainter::ViewPair>> FramePainter::residentPair(const CutEntry& entry, ImpostorKind kind,
+                                                                         PaintCounts& counts) {
+  ViewPair pair;
+  for (const auto& [view, place] : {std::pair{entry.view, &pair.nearest}, std::pair{entry.secondView, &pair.second}}) {
+    place->direction = viewpoints_.directions()[view];
+    if (kind == ImpostorKind::flat && place == &pair.second) continue;
+    const ResidentView* resident = views_.keep(entry.cell, view);
+    if (resident == nullptr) {
+      FARCELL_ASSIGN(const ViewImage image, readView(entry.cell, view, counts));
+      resident = views_.add(entry.cell, view, image);
+      if (resident == nullptr) return std::optional<ViewPair>{};
+    }
+    place->view = *resident;
+  }
+  return std::optional<ViewPair>{pair};
 }
 
 void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& instances, ImpostorKind kind) {

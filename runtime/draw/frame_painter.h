@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
 #include "cache/schema/viewpoints.h"
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/geometry_store.h"
+#include "runtime/draw/impostor_instance.h"
 #include "runtime/draw/impostor_kind.h"
 #include "runtime/draw/view_store.h"
 #include "runtime/gl/program.h"
@@ -36,6 +38,12 @@ class FramePainter {
   };
   FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes, Programs programs);
   Result<> paintTriangles(const Cut& cut, PaintCounts& counts);
+  // What an impostor is drawn from; the flat kind has no use for the second view.
+  struct ViewPair {
+    DirectedView nearest;
+    DirectedView second;
+  };
+  Result<std::optional<ViewPair>> residentPair(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
   Result<> paintImpostors(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, PaintCounts& counts);
   void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, ImpostorKind kind);
   Result<ViewImage> readView(uint32_t cell, uint32_t view, PaintCounts& counts) const;

@@ -29,37 +29,49 @@ DepthScale depthScale(const ResidentView& view, double texel) {
 
 glm::vec4 plane(glm::dvec3 axis, double offset) { return glm::vec4(glm::vec3(axis), static_cast<float>(offset)); }
 
+// eye: local.
+shared::ImpostorView impostorView(const DirectedView& directed, glm::dvec3 eye, double texel) {
+  const ResidentView& view = directed.view;
+  const ViewFrame frame = viewFrame(directed.direction);
+  const DepthScale depth = depthScale(view, texel);
+  const double depthTexel = texel * depth.perHalfSide;
+  const double middle = kViewHalfExtent / texel;
+  const glm::dvec3 eyeTexture(glm::dot(frame.right, eye) / texel + middle, glm::dot(frame.up, eye) / texel + middle,
+                              glm::dot(frame.toward, eye) * depth.perHalfSide + depth.valueAtZero);
+  shared::ImpostorView result;
+  result.textureX = plane(frame.right / texel, middle);
+  result.textureY = plane(frame.up / texel, middle);
+  result.textureZ = plane(frame.toward * depth.perHalfSide, depth.valueAtZero);
+  result.eye = plane(eyeTexture, depthTexel);
+  result.boxMin = glm::vec4(1, 1, 1, 0);
+  result.boxMax = glm::vec4(0);
+  if (view.layer < 0) return result;
+  const glm::dvec2 cropMin(view.x0, view.y0);
+  const glm::dvec2 cropMax(view.x0 + view.width, view.y0 + view.height);
+  const double depthMaxValue = (static_cast<double>(view.depthMax) - view.depthMin) * depth.perHalfSide + 1;
+  result.boxMin = plane({cropMin - kViewPadTexels, 1 - kDepthPadTexels * depthTexel}, view.layer);
+  result.boxMax = plane({cropMax + kViewPadTexels, depthMaxValue + kDepthPadTexels * depthTexel}, 0);
+  return result;
+}
+
 }  // namespace
 
-shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, glm::dvec3 direction,
-                                              const ResidentView& view, const FrameCamera& camera) {
-  const ViewFrame frame = viewFrame(direction);
+shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const DirectedView& nearest,
+                                              const DirectedView& second, const FrameCamera& camera) {
   const double texel = texelSize(model.settings.imageSize);
   const GridBox cube = cellBox(model.grid, cell.key);
   const glm::dvec3 centreSteps = glm::dvec3(cube.min + cube.max) * 0.5;
   const double halfSteps = std::ldexp(0.5, model.grid.bits - static_cast<int>(cell.key.level));
   const glm::dvec3 eye = (camera.eyeSteps - centreSteps) / halfSteps;
-  const DepthScale depth = depthScale(view, texel);
-  const double middle = kViewHalfExtent / texel;
-  const glm::dvec3 eyeTexture(glm::dot(frame.right, eye) / texel + middle, glm::dot(frame.up, eye) / texel + middle,
-                              glm::dot(frame.toward, eye) * depth.perHalfSide + depth.valueAtZero);
   const double halfRootSides = std::ldexp(0.5, -static_cast<int>(cell.key.level));
-  const double depthTexel = texel * depth.perHalfSide;
 
   shared::ImpostorInstance instance;
   instance.centre = plane(centreSteps - camera.eyeSteps, halfSteps);
   instance.boxMin = plane((glm::dvec3(cell.content.min) - centreSteps) / halfSteps, texel);
-  instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, view.layer);
-  instance.textureX = plane(frame.right / texel, middle);
-  instance.textureY = plane(frame.up / texel, middle);
-  instance.textureZ = plane(frame.toward * depth.perHalfSide, depth.valueAtZero);
+  instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, 0);
   instance.eye = plane(eye, std::log2(camera.pixelAngle / (texel * halfRootSides)) + kLodBias);
-  instance.eyeTexture = plane(eyeTexture, depthTexel);
-  const glm::dvec2 cropMin(view.x0, view.y0);
-  const glm::dvec2 cropMax(view.x0 + view.width, view.y0 + view.height);
-  const double depthMaxValue = (static_cast<double>(view.depthMax) - view.depthMin) * depth.perHalfSide + 1;
-  instance.viewMin = plane({cropMin - kViewPadTexels, 1 - kDepthPadTexels * depthTexel}, 0);
-  instance.viewMax = plane({cropMax + kViewPadTexels, depthMaxValue + kDepthPadTexels * depthTexel}, 0);
+  instance.nearest = impostorView(nearest, eye, texel);
+  instance.second = impostorView(second, eye, texel);
   return instance;
 }
 

@@ -6,8 +6,13 @@
 
 namespace farcell {
 
-// `direction`: of the view (Viewpoints::directions). REQUIRES: the view is not empty.
-shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, glm::dvec3 direction,
-                                              const ResidentView& view, const FrameCamera& camera);
+// A view and its direction (Viewpoints::directions). Empty views (layer < 0) are never hit.
+struct DirectedView {
+  glm::dvec3 direction;
+  ResidentView view;
+};
+
+shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const DirectedView& nearest,
+                                              const DirectedView& second, const FrameCamera& camera);
 
 }  // namespace farcell

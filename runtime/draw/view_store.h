@@ -21,7 +21,7 @@ struct ResidentView {
 
 class ViewStore {
  public:
-  // REQUIRES: a current context. One layer is always held.
+  // REQUIRES: a current context. Two layers, an impostor's, are always held.
   ViewStore(int imageSize, uint64_t budgetBytes);
 
   void beginPortion();

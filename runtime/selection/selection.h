@@ -17,7 +17,7 @@
 
 namespace farcell {
 
-inline constexpr double kTexelPixels = 0.7;
+inline constexpr double kTexelPixels = 0.5;
 
 enum class RenderMode {
   automatic,  // impostors and triangles
@@ -39,6 +39,7 @@ struct CutEntry {
   // Impostors: the view of the smallest angle to (eye - centre of the cell's content). Content is often thin and off
   // the cube's centre (a city in its cells): seen from near, the direction to the cube would choose a wrong view.
   uint32_t view = 0;
+  uint32_t secondView = 0;  // the next nearest: asked where the first saw no surface
 };
 
 // Entries lie front to back: of two, the later one can never hide the earlier (octree order seen from the eye).

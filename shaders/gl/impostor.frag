@@ -1,8 +1,12 @@
-// Kind A: where the pixel's ray meets the surface that the view's depth image describes, the view's colour.
+// Kind A: where a ray through the pixel meets the surface that a view's depth image describes, the view's colour.
 //
 // Points of the ray are point(s) = boxPoint + s (boxPoint - eye): s = -1 is the eye, s = 0 the back of the box. The ray
-// is clipped to the padded content box and to the box of what the view holds. Then one loop, one depth look-up a turn:
-// up to 3 fixed-point steps; where they do not settle, a march of at most 8 steps and 4 bisections.
+// is clipped to the padded content box and to the box of what the view holds, and marched from its near end: one loop,
+// one depth look-up a turn, at most 16 steps and 5 bisections. (A fixed-point start saves look-ups, but may settle on a
+// surface behind the nearest one.)
+//
+// A hit is on the surface, or on a jump of the depth image, where the view did not see what lies behind a silhouette.
+// There, and where the ray meets nothing, the second nearest view is asked; its surface is believed, its jumps are not.
 #include "shaders/shared/draw.h"
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
@@ -10,32 +14,34 @@ layout(binding = 0) uniform sampler2DArray colours;
 layout(binding = 1) uniform sampler2DArray depths;
 
 in vec3 boxPoint;
-in vec3 texturePoint;
-flat in vec3 eye;
-flat in vec4 eyeTexture;
+in vec3 nearestPoint, secondPoint;
+flat in vec4 eye;
 flat in vec3 boxMin, boxMax;
-flat in vec3 viewMin, viewMax;
-flat in vec2 layerAndLod;
+flat in vec4 nearestEye, nearestMin, secondEye, secondMin;
+flat in vec3 nearestMax, secondMax;
 
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
 
-const int kFixedPointSteps = 3;
-const float kSettledTexels = 0.5;
-const int kMarchSteps = 8;
-const float kMarchTexels = 1.5;          // lateral length of a step, where 8 are enough
-const int kBisections = 4;
+const int kMarchSteps = 16;
+const float kMarchTexels = 1.5;          // lateral length of a step, where 16 are enough
+const int kBisections = 5;
 const float kEnteredBehindTexels = 6.0;  // how far below the surface a ray may enter and still be a hit
+const float kSurfaceTexels = 1.0;        // a crossing that ends farther below the depth image is a jump of it
 const float kEmptyAlpha = 0.004;
-const int kAttempts = 3;                 // surfaces looked at when the nearest ones turn out to be empty
-const int kMaxLookups = kFixedPointSteps + 1 + kMarchSteps + kBisections;
+const int kAttempts = 6;                 // hits looked at when the nearest ones are empty or jumps
+const int kMaxLookups = 1 + kMarchSteps + kBisections;
 
 // What the next look-up is for.
-const int kFixedPoint = 0;
-const int kMarch = 1;
-const int kBisect = 2;
-const int kHit = 3;
-const int kMiss = 4;
+const int kMarch = 0;
+const int kBisect = 1;
+const int kHit = 2;
+const int kMiss = 3;
+
+// What a look along the ray found.
+const int kNothing = 0;
+const int kJump = 1;
+const int kSurface = 2;
 
 // First and last s within [low, high] along one set of axes.
 vec2 slab(vec3 point, vec3 direction, vec3 low, vec3 high) {
@@ -48,57 +54,54 @@ vec2 slab(vec3 point, vec3 direction, vec3 low, vec3 high) {
 }
 
 // Depth value at a point of the image; 0 where nothing is known.
-float depthValue(vec2 texel) {
+float depthValue(vec2 texel, float layer) {
   ivec2 nearest = clamp(ivec2(floor(texel)), ivec2(0), ivec2(int(frame.image.x) - 1));
-  return texelFetch(depths, ivec3(nearest, int(layerAndLod.x)), 0).r * 255.0;
+  return texelFetch(depths, ivec3(nearest, int(layer)), 0).r * 255.0;
 }
 
-void main() {
-  vec3 along = texturePoint - eyeTexture.xyz;
-  vec2 inBox = slab(boxPoint, boxPoint - eye, boxMin, boxMax);
-  vec2 inView = slab(texturePoint, along, viewMin, viewMax);
+// Looks through one view. point: boxPoint in its texture space; from: its eye, w: edge of a texel in depth values;
+// low: its box, w: its layer. Sets `found` to the colour of what it returns.
+int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 found) {
+  vec3 along = point - from.xyz;
+  vec2 inView = slab(point, along, low.xyz, high);
   float first = max(max(inBox.x, inView.x), -1.0);
   float last = min(inBox.y, inView.y);
-  float texel = eyeTexture.w;
+  float texel = from.w;
 
-  float inverseAlong = 1.0 / (along.z + 1e-30);
   float steps = clamp(ceil(length(along.xy) * (last - first) / kMarchTexels), 2.0, float(kMarchSteps));
   float stepLength = (last - first) / steps;
-  float s = clamp((0.5 * (viewMin.z + viewMax.z) - texturePoint.z) * inverseAlong, first, last);
-  int state = first < last ? kFixedPoint : kMiss;
-  int turns = 0;        // look-ups made in this state
-  float step = -1.0;    // of the march
-  bool above = false;   // the march's last point was above the surface
-  float before = first; // that point; bisecting: the end above the surface
-  float below = first;  // bisecting: the end below it
+  float s = first;
+  int state = first < last && low.x < high.x ? kMarch : kMiss;
+  int bisections = 0;
+  float step = 0.0;          // of the march
+  bool above = false;        // the march's last point was above the surface
+  float before = first;      // that point; bisecting: the end above the surface
+  float below = first;       // bisecting: the end below it
+  float depthBelow = 0.0;    // how far below the depth image that end lies, depth values
+  int result = kNothing;
 
-  colour = vec4(0.0);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     for (int lookup = 0; lookup < kMaxLookups && state < kHit; ++lookup) {
-      vec3 point = texturePoint + s * along;
-      float known = depthValue(point.xy);
-      float height = known > 0.0 ? point.z - known : 1e9;
+      vec3 here = point + s * along;
+      float known = depthValue(here.xy, low.w);
+      float height = known > 0.0 ? here.z - known : 1e9;
       bool under = height <= 0.0;
       bool advance = false;
-      if (state == kFixedPoint) {
-        float next = (known - texturePoint.z) * inverseAlong;
-        bool settled = abs(height) < kSettledTexels * texel && next >= first && next <= last;
-        state = settled ? kHit : kFixedPoint;
-        s = clamp(next, first, last);
-        advance = !settled && (known == 0.0 || ++turns == kFixedPointSteps);
-      } else if (state == kMarch) {
+      if (state == kMarch) {
         bool crossed = under && (step == 0.0 ? height > -kEnteredBehindTexels * texel : above);
         below = s;
+        depthBelow = -height;
         state = crossed ? (step == 0.0 ? kHit : kBisect) : kMarch;
-        turns = 0;
+        bisections = 0;
         advance = !crossed;
         above = !under;
         before = crossed ? before : s;
         s = crossed && step > 0.0 ? 0.5 * (before + s) : s;
       } else {
         below = under ? s : below;
+        depthBelow = under ? -height : depthBelow;
         before = under ? before : s;
-        bool done = ++turns == kBisections;
+        bool done = ++bisections == kBisections;
         s = done ? below : 0.5 * (before + below);
         state = done ? kHit : kBisect;
       }
@@ -109,15 +112,50 @@ void main() {
       }
     }
     if (state != kHit) break;
-    vec2 hit = texturePoint.xy + s * along.xy;
-    float lod = layerAndLod.y + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
-    colour = textureLod(colours, vec3(hit * frame.image.y, layerAndLod.x), lod);
-    if (colour.a > kEmptyAlpha) break;
-    colour = vec4(0.0);
+    bool onSurface = depthBelow < kSurfaceTexels * texel;
+    if (onSurface || result == kNothing) {
+      vec2 hit = point.xy + s * along.xy;
+      float lod = eye.w - frame.image.w + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
+      vec4 seen = textureLod(colours, vec3(hit * frame.image.y, low.w), lod);
+      if (seen.a > kEmptyAlpha) {
+        found = seen;
+        result = onSurface ? kSurface : kJump;
+        if (onSurface) break;
+      }
+    }
     above = false;
     step += 1.0;
     s = first + step * stepLength;
     state = step > steps ? kMiss : kMarch;
   }
+  return result;
+}
+
+// What the ray through a point of the box's back sees; the three points are the same one in three spaces.
+vec4 seenThrough(vec3 local, vec3 inNearest, vec3 inSecond) {
+  vec2 inBox = slab(local, local - eye.xyz, boxMin, boxMax);
+  vec4 seen = vec4(0.0);
+  if (look(inNearest, nearestEye, nearestMin, nearestMax, inBox, seen) == kSurface) return seen;
+  vec4 other = vec4(0.0);
+  if (look(inSecond, secondEye, secondMin, secondMax, inBox, other) == kSurface) return other;
+  return seen;
+}
+
+// Where the object's outline differs from the view's, no texel knows how much of the pixel it covers: rays do.
+const vec2 kRayOffsets[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(0.125, 0.375), vec2(-0.375, 0.125));
+
+void main() {
+  vec3 localX = dFdx(boxPoint), localY = dFdy(boxPoint);
+  vec3 nearestX = dFdx(nearestPoint), nearestY = dFdy(nearestPoint);
+  vec3 secondX = dFdx(secondPoint), secondY = dFdy(secondPoint);
+  colour = vec4(0.0);
+  int rays = int(frame.image.z);
+  for (int ray = 0; ray < rays; ++ray) {
+    vec2 offset = rays == 1 ? vec2(0.0) : kRayOffsets[ray];
+    colour += seenThrough(boxPoint + offset.x * localX + offset.y * localY,
+                          nearestPoint + offset.x * nearestX + offset.y * nearestY,
+                          secondPoint + offset.x * secondX + offset.y * secondY);
+  }
+  colour *= 1.0 / frame.image.z;
   impostorCoverage = colour.aaaa;
 }

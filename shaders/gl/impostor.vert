@@ -6,12 +6,16 @@ layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instances[]; };
 
 out vec3 boxPoint;              // local
-out vec3 texturePoint;
-flat out vec3 eye;              // local
-flat out vec4 eyeTexture;
-flat out vec3 boxMin, boxMax;   // padded, local
-flat out vec3 viewMin, viewMax;
-flat out vec2 layerAndLod;
+out vec3 nearestPoint, secondPoint;  // in the texture spaces of the two views
+flat out vec4 eye;                   // local; w: level of detail at clip w = 1
+flat out vec3 boxMin, boxMax;        // padded, local
+flat out vec4 nearestEye, nearestMin, secondEye, secondMin;
+flat out vec3 nearestMax, secondMax;
+
+vec3 texturePoint(ImpostorView view, vec3 local) {
+  return vec3(dot(view.textureX.xyz, local) + view.textureX.w, dot(view.textureY.xyz, local) + view.textureY.w,
+              dot(view.textureZ.xyz, local) + view.textureZ.w);
+}
 
 void main() {
   ImpostorInstance instance = instances[gl_InstanceID];
@@ -20,14 +24,15 @@ void main() {
   boxMax = instance.boxMax.xyz + pad;
   bvec3 high = bvec3((gl_VertexID & 1) != 0, (gl_VertexID & 2) != 0, (gl_VertexID & 4) != 0);
   boxPoint = mix(boxMin, boxMax, high);
-  texturePoint = vec3(dot(instance.textureX.xyz, boxPoint) + instance.textureX.w,
-                      dot(instance.textureY.xyz, boxPoint) + instance.textureY.w,
-                      dot(instance.textureZ.xyz, boxPoint) + instance.textureZ.w);
-  eye = instance.eye.xyz;
-  eyeTexture = instance.eyeTexture;
-  viewMin = instance.viewMin.xyz;
-  viewMax = instance.viewMax.xyz;
-  layerAndLod = vec2(instance.boxMax.w, instance.eye.w);
+  eye = instance.eye;
+  nearestPoint = texturePoint(instance.nearest, boxPoint);
+  nearestEye = instance.nearest.eye;
+  nearestMin = instance.nearest.boxMin;
+  nearestMax = instance.nearest.boxMax.xyz;
+  secondPoint = texturePoint(instance.second, boxPoint);
+  secondEye = instance.second.eye;
+  secondMin = instance.second.boxMin;
+  secondMax = instance.second.boxMax.xyz;
 
   vec3 relative = instance.centre.xyz + instance.centre.w * boxPoint;
   float w = dot(frame.clipW.xyz, relative);

@@ -12,15 +12,16 @@ flat out vec2 layerAndLod;
 void main() {
   ImpostorInstance instance = instances[gl_InstanceID];
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  texel = mix(instance.viewMin.xy, instance.viewMax.xy, corner);
+  ImpostorView view = instance.nearest;
+  texel = mix(view.boxMin.xy, view.boxMax.xy, corner);
   float edge = instance.boxMin.w;
-  vec3 toward = normalize(instance.textureZ.xyz);
+  vec3 toward = normalize(view.textureZ.xyz);
   // The inverse of textureX, textureY: their rows are the view's unit axes divided by a texel's edge.
-  vec3 onPlane = edge * edge * (instance.textureX.xyz * (texel.x - instance.textureX.w) +
-                                instance.textureY.xyz * (texel.y - instance.textureY.w));
+  vec3 onPlane = edge * edge * (view.textureX.xyz * (texel.x - view.textureX.w) +
+                                view.textureY.xyz * (texel.y - view.textureY.w));
   vec3 local = onPlane + toward * dot(toward, 0.5 * (instance.boxMin.xyz + instance.boxMax.xyz));
   vec3 relative = instance.centre.xyz + instance.centre.w * local;
   gl_Position = vec4(dot(frame.clipX.xyz, relative), dot(frame.clipY.xyz, relative), frame.eyeFraction.w,
                      dot(frame.clipW.xyz, relative));
-  layerAndLod = vec2(instance.boxMax.w, instance.eye.w);
+  layerAndLod = vec2(view.boxMin.w, instance.eye.w);
 }

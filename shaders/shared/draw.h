@@ -16,22 +16,28 @@ struct FrameUniforms {
   ivec4 eyeSteps;    // xyz: integer part of the eye's position on the grid
   vec4 eyeFraction;  // xyz: the rest of it, in steps; w: near distance, root sides
   vec4 sun;          // xyz: unit, world axes
-  vec4 image;        // x: edge of a view in texels; y: 1 / x
+  vec4 image;        // x: edge of a view in texels; y: 1 / x; z: rays per pixel; w: log2(z) / 2
 };
 
-// One impostor. Local: from the cell's centre, world axes, in half sides of the cell. Texture space: x, y in texels of
-// the view (0 is the image's lower left corner), z in values of the depth image (1..254 + 1, linear in w).
-struct ImpostorInstance {
-  vec4 centre;    // xyz: cell centre - eye, grid steps; w: half side, grid steps
-  vec4 boxMin;    // xyz: content box, local; w: edge of a texel, half sides
-  vec4 boxMax;    // w: layer of the view in the texture arrays
+// One view of an impostor. Local: from the cell's centre, world axes, in half sides of the cell. Texture space: x, y in
+// texels of the view (0 is the image's lower left corner), z in values of the depth image (1..254 + 1, linear in w).
+struct ImpostorView {
   vec4 textureX;  // texture x = dot(xyz, local) + w
   vec4 textureY;
   vec4 textureZ;
-  vec4 eye;         // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
-  vec4 eyeTexture;  // xyz: the eye, texture space; w: edge of a texel in depth values
-  vec4 viewMin;     // xyz: box of the view's content, texture space
-  vec4 viewMax;
+  vec4 eye;       // xyz: the eye, texture space; w: edge of a texel in depth values
+  vec4 boxMin;    // xyz: box of the view's content, texture space (an empty view: min > max); w: layer in the arrays
+  vec4 boxMax;
+};
+
+// One impostor: the view nearest to the eye, and the second nearest for what the first did not see.
+struct ImpostorInstance {
+  vec4 centre;  // xyz: cell centre - eye, grid steps; w: half side, grid steps
+  vec4 boxMin;  // xyz: content box, local; w: edge of a texel, half sides
+  vec4 boxMax;
+  vec4 eye;     // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
+  ImpostorView nearest;
+  ImpostorView second;
 };
 
 // A cell's content box is drawn larger by this share of a texel, so that neighbours' filtered edges meet.

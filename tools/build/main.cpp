@@ -77,13 +77,14 @@ void printSummary(const BuildResult& result) {
   const BuildReport& report = directory.report;
   const auto leaves = std::count_if(directory.cells.begin(), directory.cells.end(),
                                     [](const CellRecord& cell) { return cell.childCount == 0; });
-  fmt::print("triangles {} (skipped {}), cells {} + {} inner, views {} of {} kept\n", report.inputTriangles,
-             [&] {
-               uint64_t sum = 0;
-               for (const auto& [reason, count] : report.skipped) sum += count;
-               return sum;
-             }(),
-             leaves, directory.cells.size() - static_cast<size_t>(leaves), report.viewsKept, report.viewsBaked);
+  fmt::print(
+      "triangles {} (skipped {}), cells {} + {} inner, views {} of {} kept\n", report.inputTriangles,
+      [&] {
+        uint64_t sum = 0;
+        for (const auto& [reason, count] : report.skipped) sum += count;
+        return sum;
+      }(),
+      leaves, directory.cells.size() - static_cast<size_t>(leaves), report.viewsKept, report.viewsBaked);
   fmt::print("pack {:.1f} MB: impostors {:.1f} (raw {:.1f}), geometry {:.1f}; {:.1f} s, peak memory {:.0f} MB\n",
              static_cast<double>(result.packBytes) * 1e-6, static_cast<double>(report.impostorBytes) * 1e-6,
              static_cast<double>(report.impostorRawBytes) * 1e-6, static_cast<double>(report.geometryBytes) * 1e-6,

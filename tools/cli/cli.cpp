@@ -67,7 +67,8 @@ Result<ImageSize> parseImageSize(const std::string& text) {
     valid = height.ec == std::errc{} && height.ptr == end && std::min(size.width, size.height) >= 1 &&
             std::max(size.width, size.height) <= 16384;
   }
-  if (!valid) return fail(ErrorKind::invalidArgument, "expected a size such as 1280x720 (1 to 16384), found '{}'", text);
+  if (!valid)
+    return fail(ErrorKind::invalidArgument, "expected a size such as 1280x720 (1 to 16384), found '{}'", text);
   return size;
 }
 

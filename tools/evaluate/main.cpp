@@ -22,8 +22,8 @@ Result<> run(EvaluateOptions& options, const Words& words) {
   options.height = size.height;
   FARCELL_ASSIGN(options.selection.triangleBudget, parseCount(words.triangleBudget));
   FARCELL_ASSIGN(const auto background, parseColour("--background", words.background));
-  options.background = Colour{static_cast<float>(background[0]), static_cast<float>(background[1]),
-                              static_cast<float>(background[2])};
+  options.background =
+      Colour{static_cast<float>(background[0]), static_cast<float>(background[1]), static_cast<float>(background[2])};
   options.residentBytes = words.residentMib << 20;
   if (options.cameras.empty() && options.autoCameras == 0)
     return fail(ErrorKind::invalidArgument, "one of --cameras and --auto-cameras is needed");

@@ -79,7 +79,8 @@ TEST(CutTriangle, TrianglesThatShareAnEdgeGetTheSameNewCorner) {
             const glm::dvec3 edge = glm::normalize(glm::dvec3(b - a));
             const glm::dvec3 offset(corner - a);
             const bool near = glm::length(offset - edge * glm::dot(offset, edge)) < 1.0;
-            if (corner[axis] == plane && near && corner != a && corner != b) onEdge.insert({corner.x, corner.y, corner.z});
+            if (corner[axis] == plane && near && corner != a && corner != b)
+              onEdge.insert({corner.x, corner.y, corner.z});
           }
     }
     EXPECT_EQ(onEdge.size(), 1u);
@@ -105,8 +106,7 @@ TEST(CutTriangle, ColoursAreInterpolatedAlongTheEdge) {
   triangle.colours = {0x000000, 0x6400c8, 0x000000};
   const auto [low, high] = cutTriangle(triangle, 0, 50);
   ASSERT_EQ(high.size(), 1u);
-  for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(high[0].colours[k], high[0].corners[k].x == 100 ? 0x6400c8u : 0x320064u);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(high[0].colours[k], high[0].corners[k].x == 100 ? 0x6400c8u : 0x320064u);
 }
 
 TEST(CutAt, APolygonCutManyTimesKeepsFewCorners) {

@@ -34,7 +34,8 @@ InputTriangle inputTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   return triangle;
 }
 
-// A closed tetrahedral soup: `count` tetrahedra of sizes from largest / 1000 to `largest` in a box of `size` at `offset`.
+// A closed tetrahedral soup: `count` tetrahedra of sizes from largest / 1000 to `largest` in a box of `size` at
+// `offset`.
 std::vector<InputTriangle> tetrahedra(std::mt19937& random, int count, double size, glm::dvec3 offset,
                                       double largest = 1) {
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -60,7 +61,8 @@ double inputArea(const std::vector<InputTriangle>& triangles) {
   return sum;
 }
 
-Result<Partition> partitioned(const std::vector<InputTriangle>& triangles, const BuildSettings& settings, int threads = 2) {
+Result<Partition> partitioned(const std::vector<InputTriangle>& triangles, const BuildSettings& settings,
+                              int threads = 2) {
   MemoryMesh mesh(triangles);
   Progress silent(false);
   return partitionMesh(mesh, settings, testing::TempDir(), threads, silent);
@@ -71,7 +73,8 @@ double leafArea(const Partition& partition) {
   for (const Leaf& leaf : partition.leaves) {
     const std::vector<GridTriangle> triangles = partition.triangles.read(leaf.list).value();
     for (const GridTriangle& t : triangles)
-      sum += 0.5 * glm::length(glm::cross(glm::dvec3(t.corners[1] - t.corners[0]), glm::dvec3(t.corners[2] - t.corners[0])));
+      sum += 0.5 *
+             glm::length(glm::cross(glm::dvec3(t.corners[1] - t.corners[0]), glm::dvec3(t.corners[2] - t.corners[0])));
   }
   return sum * partition.grid.step() * partition.grid.step();
 }
@@ -84,7 +87,8 @@ bool isAncestor(CellKey above, CellKey below) {
 TEST(PartitionMesh, LeavesTileTheModelAtAnyScaleAndOffset) {
   const uint32_t seed = std::random_device{}();
   SCOPED_TRACE(seed);
-  for (const auto& [size, offset] : {std::pair{1.0, 0.0}, std::pair{1e-20, 0.0}, std::pair{1e20, 0.0}, std::pair{1e4, 5e6}}) {
+  for (const auto& [size, offset] :
+       {std::pair{1.0, 0.0}, std::pair{1e-20, 0.0}, std::pair{1e20, 0.0}, std::pair{1e4, 5e6}}) {
     std::mt19937 random(seed);
     const auto triangles = tetrahedra(random, 2000, size, glm::dvec3(offset));
     BuildSettings settings;

@@ -113,8 +113,8 @@ TEST_F(SharedShaders, structuresLieAlikeInCppAndInTheDriver) {
   EXPECT_EQ(offsetOf(*program, GL_UNIFORM, "frame.image"), static_cast<GLint>(offsetof(FrameUniforms, image)));
   EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].boxMax"),
             static_cast<GLint>(offsetof(ImpostorInstance, boxMax)));
-  EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].viewMax"),
-            static_cast<GLint>(offsetof(ImpostorInstance, viewMax)));
+  EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].second.boxMax"),
+            static_cast<GLint>(offsetof(ImpostorInstance, second) + offsetof(shared::ImpostorView, boxMax)));
   const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "instances[0].centre");
   const GLenum property = GL_TOP_LEVEL_ARRAY_STRIDE;
   GLint stride = 0;
