@@ -13,7 +13,7 @@ struct FrameImage {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> rgba;
-  // Share of each pixel's coverage drawn by impostors, 0..255 (1 byte a pixel).
+  // Coverage drawn by impostors, at most alpha, 0..255 (1 byte a pixel).
   std::vector<uint8_t> impostorCoverage;
 };
 

@@ -80,8 +80,8 @@ TEST(Renderer, impostorsShowWhatTrianglesShow) {
     const FrameStats stats = drawn.draw(camera, sized(320, 240, RenderMode::impostors), impostors);
     EXPECT_GT(stats.impostors, 1u);
     EXPECT_LT(difference(triangles, impostors).mean, 1.5);
-    // The outline may lie a tenth of a texel off: views are as coarse as two pixels here.
-    EXPECT_LT(std::abs(coveredPixels(impostors) - coveredPixels(triangles)), 0.1 * 2 * outlinePixels(triangles));
+    // The outline may lie a fifth of a texel off on average; a texel is two pixels here.
+    EXPECT_LT(std::abs(coveredPixels(impostors) - coveredPixels(triangles)), 0.2 * 2 * outlinePixels(triangles));
     drawn.draw(camera, sized(320, 240, RenderMode::impostors, 4, ImpostorKind::flat), impostors);
     EXPECT_LT(difference(triangles, impostors).mean, 6);
   }

@@ -166,6 +166,26 @@ TEST(Viewpoints, NearestIsTheSmallestAngleUnderEverySymmetryAndLengthAndTheLowes
   }
 }
 
+TEST(Viewpoints, NearestTwoAreTheSmallestAngleAndTheNextSmallest) {
+  const unsigned seed = 515;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const int count : kAllSets) {
+    const Viewpoints set = make(count);
+    for (const glm::dvec3& direction : awkwardAndRandomDirections(set, random, 200)) {
+      const std::array<int, 2> two = set.nearestTwo(direction);
+      ASSERT_EQ(two[0], set.nearest(direction));
+      ASSERT_NE(two[1], two[0]);
+      for (int other = 0; other < count; ++other) {
+        if (other != two[0]) {
+          ASSERT_GE(exactDot(set.directions()[two[1]], direction),
+                    exactDot(set.directions()[other], direction) - 1e-14L);
+        }
+      }
+    }
+  }
+}
+
 TEST(Viewpoints, NearestDoesNotDependOnTheLengthOfTheDirection) {
   std::mt19937 random(7);
   for (const int count : {42, 320}) {
