@@ -10,8 +10,9 @@
 
 namespace farcell {
 
-// A leaf of fewer triangles gets no views: drawing them costs less than drawing a view.
-inline constexpr uint64_t kTrianglesCheaperThanView = 128;
+// A leaf of fewer triangles gets no views: they would cost more bytes than they can save time. No more than a few: a
+// single triangle in a frame makes the renderer multisample all of it.
+inline constexpr uint64_t kTrianglesCheaperThanView = 4;
 
 // Up to here a cell's triangles are gathered once and every view is baked from memory; beyond, leaves are streamed
 // past all views at once. Both give the same views.

@@ -19,6 +19,10 @@ struct Run {
 };
 
 constexpr Run kRuns[] = {{"full-1spp", RenderMode::full, ImpostorKind::flat, 1},
+                         {"auto-flat-1spp", RenderMode::automatic, ImpostorKind::flat, 1},
+                         {"auto-A-1spp", RenderMode::automatic, ImpostorKind::depthCorrected, 1},
+                         {"impostors-flat-1spp", RenderMode::impostors, ImpostorKind::flat, 1},
+                         {"impostors-A-1spp", RenderMode::impostors, ImpostorKind::depthCorrected, 1},
                          {"full-4spp", RenderMode::full, ImpostorKind::flat, 4},
                          {"auto-flat", RenderMode::automatic, ImpostorKind::flat, 4},
                          {"auto-A", RenderMode::automatic, ImpostorKind::depthCorrected, 4},
