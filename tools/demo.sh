@@ -69,7 +69,7 @@ tr -d ' \n' <info.json | grep -oE '"bounds":\{"min":\[[^]]*\],"max":\[[^]]*\]' |
     dx = v[3] - v[0]; dy = v[4] - v[1]; r = sqrt(dx * dx + dy * dy) / 2
     shot = "    {\"name\": \"%s\", \"position\": [%.2f, %.2f, %.2f], \"target\": [%.2f, %.2f, %.2f], \"up\": [0, 0, 1], \"fovYDeg\": %g}%s\n"
     printf "{\"cameras\": [\n"
-    printf shot, "overview", cx - 1.15 * r, cy - 1.4 * r, ground + 0.95 * r, cx, cy - 0.05 * r, ground, 40, ","
+    printf shot, "overview", cx - 1.2 * r, cy - 1.45 * r, ground + r, cx - 0.12 * r, cy - 0.15 * r, ground, 40, ","
     printf shot, "quarter", cx - 0.75 * r, cy - 0.95 * r, ground + 0.5 * r, cx, cy, ground, 45, ","
     printf shot, "roofs", cx + 0.3 * r, cy - 0.35 * r, ground + 0.22 * r + 30, cx, cy + 0.1 * r, ground, 55, ","
     printf shot, "street", -8.3, -104.0, 16.9, -8.3, 100.0, 19.0, 60, ""
