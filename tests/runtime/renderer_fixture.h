@@ -76,13 +76,6 @@ inline double coveredPixels(const FrameImage& image) {
   return sum;
 }
 
-// Pixels that are covered in part: about the length of the outline.
-inline double outlinePixels(const FrameImage& image) {
-  double count = 0;
-  for (size_t i = 3; i < image.rgba.size(); i += 4) count += image.rgba[i] > 0 && image.rgba[i] < 255;
-  return count;
-}
-
 struct Difference {
   int worst = 0;
   double mean = 0;  // of all bytes
