@@ -12,6 +12,7 @@
 #include "preprocess/build/cell_bake.h"
 #include "preprocess/build/ordered_output.h"
 #include "preprocess/partition/partition.h"
+#include "preprocess/read/open_mesh.h"
 
 namespace farcell {
 namespace {

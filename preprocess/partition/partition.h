@@ -16,8 +16,8 @@
 
 #include "cache/base/progress.h"
 #include "cache/schema/model.h"
+#include "preprocess/mesh/mesh_reader.h"
 #include "preprocess/partition/triangle_lists.h"
-#include "preprocess/read/mesh_reader.h"
 
 namespace farcell {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cache/base/progress.h"
+#include "preprocess/mesh/mesh_reader.h"
 #include "preprocess/partition/triangle_lists.h"
-#include "preprocess/read/mesh_reader.h"
 
 namespace farcell {
 

@@ -1,11 +1,11 @@
-#include <algorithm>
+#include "preprocess/read/open_mesh.h"
+
 #include <array>
 #include <cctype>
 
-#include "preprocess/read/mesh_reader.h"
-#include "preprocess/read/obj_reader.h"
-#include "preprocess/read/ply_header.h"
-#include "preprocess/read/ply_reader.h"
+#include "preprocess/read/obj/obj_reader.h"
+#include "preprocess/read/ply/ply_header.h"
+#include "preprocess/read/ply/ply_reader.h"
 
 namespace farcell {
 namespace {

@@ -40,6 +40,9 @@ layers() {
       add("shaders/", "base", 0); add("cache/base/", "base", 1); add("cache/schema/", "base", 2)
       add("cache/pack/", "base", 3); add("cache/store/", "base", 4)
       add("datasets/", "datasets", 5)
+      add("preprocess/mesh/", "preprocess", 7); add("preprocess/texture/", "preprocess", 8)
+      split("ply obj stl off gltf", formats, " ")
+      for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
       add("preprocess/encode/", "preprocess", 14); add("preprocess/build/", "preprocess", 15)
@@ -48,7 +51,7 @@ layers() {
       add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
       # What several programs share (tools/cli, image, report) lies below the programs, which never see each other.
       add("tools/cli/", "top", 20); add("tools/image/", "top", 20); add("tools/report/", "top", 20)
-      split("build info verify render evaluate generate farcell", verbs, " ")
+      split("build info verify render evaluate generate extract view farcell", verbs, " ")
       for (i in verbs) add("tools/" verbs[i] "/", "top", 21)
       add("tests/", "top", 30)
     }
@@ -75,10 +78,13 @@ heavy() {
 }
 dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
-  heavy OpenImageIO '[<"]OpenImageIO/' '^(tools/image|preprocess/read|preprocess/encode|tests/support)/'
-  heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|tests)/'
+  heavy OpenImageIO '[<"]OpenImageIO/' '^(tools/image|preprocess/texture|tests/support)/'
+  heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
+  heavy tinygltf '[<"]tiny_gltf' '^(preprocess/read/gltf|tests)/'
+  heavy draco '[<"]draco/' '^(preprocess/read/gltf|tests)/'
+  heavy GLFW '[<"]GLFW/' '^runtime/gl/'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'

@@ -13,7 +13,7 @@
 #include "cache/base/file.h"
 #include "cache/base/hash.h"
 #include "cache/pack/pack_file.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/mesh/mesh_reader.h"
 #include "shaders/shared/shading.h"
 #include "tests/support/evaluate_directory.h"
 

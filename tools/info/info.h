@@ -6,7 +6,7 @@
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/mesh/mesh_reader.h"
 
 namespace farcell {
 

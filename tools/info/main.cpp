@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "cache/pack/layout.h"
+#include "preprocess/read/open_mesh.h"
 #include "tools/cli/cli.h"
 #include "tools/info/info.h"
 #include "tools/report/build_report_json.h"

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <random>
 
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/open_mesh.h"
 
 namespace farcell::bench {
 namespace {

@@ -12,7 +12,7 @@
 #include "datasets/city/block.h"
 #include "datasets/city/ground.h"
 #include "datasets/city/terrain.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/open_mesh.h"
 
 namespace farcell {
 namespace {

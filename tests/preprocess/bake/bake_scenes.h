@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "preprocess/bake/view_baker.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/open_mesh.h"
 
 namespace farcell::test {
 

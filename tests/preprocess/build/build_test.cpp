@@ -13,7 +13,7 @@
 #include "cache/pack/pack_file.h"
 #include "cache/schema/view_frame.h"
 #include "preprocess/build/cell_bake.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/open_mesh.h"
 
 namespace farcell {
 namespace {

@@ -18,6 +18,7 @@ class MemoryMesh : public MeshReader {
     info_.declaredTriangles = triangles_.size();
   }
   const MeshInfo& info() const override { return info_; }
+  std::vector<std::filesystem::path> files() const override { return {}; }
   Result<MeshCounts> forEachTriangle(const Sink& sink) override {
     FARCELL_TRY(sink(triangles_));
     return MeshCounts{triangles_.size(), {}};

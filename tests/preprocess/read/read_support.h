@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/open_mesh.h"
 
 namespace farcell::test {
 

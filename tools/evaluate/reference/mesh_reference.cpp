@@ -6,7 +6,7 @@
 #include "cache/base/hash.h"
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/read/open_mesh.h"
 #include "shaders/shared/shading.h"
 #include "tools/evaluate/reference/reference.h"
 #include "tools/evaluate/reference/tracer.h"

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "preprocess/read/byte_stream.h"
-#include "preprocess/read/ply_header.h"
+#include "preprocess/mesh/byte_stream.h"
+#include "preprocess/read/ply/ply_header.h"
 
 namespace farcell {
 

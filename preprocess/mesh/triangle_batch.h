@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "preprocess/read/mesh_reader.h"
-#include "preprocess/read/vertices.h"
+#include "preprocess/mesh/mesh_reader.h"
+#include "preprocess/mesh/vertices.h"
 
 namespace farcell {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "preprocess/read/number_text.h"
-#include "preprocess/read/zero_area.h"
+#include "preprocess/mesh/number_text.h"
+#include "preprocess/mesh/zero_area.h"
 
 namespace farcell {
 namespace {

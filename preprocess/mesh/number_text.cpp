@@ -1,4 +1,4 @@
-#include "preprocess/read/number_text.h"
+#include "preprocess/mesh/number_text.h"
 
 #include <charconv>
 #include <limits>

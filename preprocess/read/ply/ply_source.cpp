@@ -1,6 +1,6 @@
-#include "preprocess/read/ply_source.h"
+#include "preprocess/read/ply/ply_source.h"
 
-#include "preprocess/read/number_text.h"
+#include "preprocess/mesh/number_text.h"
 
 namespace farcell {
 namespace {

@@ -1,8 +1,8 @@
-#include "preprocess/read/ply_vertices.h"
+#include "preprocess/read/ply/ply_vertices.h"
 
 #include <cmath>
 
-#include "preprocess/read/ply_lists.h"
+#include "preprocess/read/ply/ply_lists.h"
 
 namespace farcell {
 namespace {

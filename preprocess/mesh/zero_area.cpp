@@ -1,4 +1,4 @@
-#include "preprocess/read/zero_area.h"
+#include "preprocess/mesh/zero_area.h"
 
 #include <algorithm>
 

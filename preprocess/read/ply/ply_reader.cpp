@@ -1,7 +1,7 @@
-#include "preprocess/read/ply_reader.h"
+#include "preprocess/read/ply/ply_reader.h"
 
-#include "preprocess/read/ply_lists.h"
-#include "preprocess/read/ply_vertices.h"
+#include "preprocess/read/ply/ply_lists.h"
+#include "preprocess/read/ply/ply_vertices.h"
 
 namespace farcell {
 namespace {
@@ -112,6 +112,7 @@ class PlyReader final : public MeshReader {
   }
 
   const MeshInfo& info() const override { return info_; }
+  std::vector<std::filesystem::path> files() const override { return {file_.path()}; }
 
   Result<MeshCounts> forEachTriangle(const Sink& sink) override {
     TriangleBatch batch(body_.vertices, sink);

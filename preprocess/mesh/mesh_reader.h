@@ -13,13 +13,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
-#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cache/base/result.h"
+#include "preprocess/mesh/texture_source.h"
 
 namespace farcell {
 
@@ -27,11 +29,14 @@ struct InputTriangle {
   std::array<glm::dvec3, 3> positions;  // as in the file, model units
   std::array<uint32_t, 3> colours;      // 0x00BBGGRR; meaningful when MeshInfo::hasColours
   std::array<glm::vec3, 3> normals;     // as in the file, any length; meaningful when MeshInfo::hasNormals
+  // Where a texture is named, its colour is multiplied with `colours`, channel by channel, in display values.
+  uint32_t texture = kNoTexture;                // index into MeshReader::textures()
+  std::array<glm::vec2, 3> textureCoordinates;  // u to the right, v up from the image's lowest row; with a texture only
 };
 
 // What the file's header or first pass tells.
 struct MeshInfo {
-  bool hasColours = false;
+  bool hasColours = false;  // also when a triangle may name a texture
   bool hasNormals = false;
   uint64_t declaredTriangles = 0;  // after triangulation, where the format declares it or a first pass counted it
   uint64_t vertices = 0;
@@ -52,12 +57,13 @@ class MeshReader {
  public:
   virtual ~MeshReader() = default;
   virtual const MeshInfo& info() const = 0;
+  // What InputTriangle::texture names; empty when the mesh has none.
+  virtual std::span<const TextureSource> textures() const { return {}; }
+  // Every file that triangles and their looks come from, the opened one first; each once.
+  virtual std::vector<std::filesystem::path> files() const = 0;
   // Batches of at most 64 Ki accepted triangles, valid during the call. The sink's error ends the pass and is returned.
   using Sink = std::function<Result<>(std::span<const InputTriangle>)>;
   virtual Result<MeshCounts> forEachTriangle(const Sink& sink) = 0;
 };
-
-// Chosen by content (PLY magic) and name (.ply, .obj). unsupported for other formats, named in the message.
-Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path);
 
 }  // namespace farcell

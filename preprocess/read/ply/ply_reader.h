@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cache/base/file.h"
-#include "preprocess/read/mesh_reader.h"
+#include "preprocess/mesh/mesh_reader.h"
 
 namespace farcell {
 

@@ -1,4 +1,4 @@
-#include "preprocess/read/obj_text.h"
+#include "preprocess/read/obj/obj_text.h"
 
 #include <cstring>
 

@@ -1,14 +1,14 @@
-#include "preprocess/read/obj_reader.h"
+#include "preprocess/read/obj/obj_reader.h"
 
 #include <array>
 #include <cmath>
 #include <unordered_set>
 
-#include "preprocess/read/number_text.h"
-#include "preprocess/read/obj_face.h"
-#include "preprocess/read/obj_materials.h"
-#include "preprocess/read/obj_text.h"
-#include "preprocess/read/triangle_batch.h"
+#include "preprocess/mesh/number_text.h"
+#include "preprocess/mesh/triangle_batch.h"
+#include "preprocess/read/obj/obj_face.h"
+#include "preprocess/read/obj/obj_materials.h"
+#include "preprocess/read/obj/obj_text.h"
 
 namespace farcell {
 namespace {
@@ -114,6 +114,7 @@ class ObjReader final : public MeshReader {
   }
 
   const MeshInfo& info() const override { return info_; }
+  std::vector<std::filesystem::path> files() const override { return {file_.path()}; }
   Result<MeshCounts> forEachTriangle(const Sink& sink) override;
 
  private:

@@ -1,12 +1,12 @@
-#include "preprocess/read/obj_materials.h"
+#include "preprocess/read/obj/obj_materials.h"
 
 #include <algorithm>
 #include <array>
 
 #include "cache/base/file.h"
-#include "preprocess/read/number_text.h"
-#include "preprocess/read/obj_text.h"
-#include "preprocess/read/vertices.h"
+#include "preprocess/mesh/number_text.h"
+#include "preprocess/mesh/vertices.h"
+#include "preprocess/read/obj/obj_text.h"
 
 namespace farcell {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
-#include "preprocess/read/ply_source.h"
-#include "preprocess/read/triangle_batch.h"
+#include "preprocess/mesh/triangle_batch.h"
+#include "preprocess/read/ply/ply_source.h"
 
 namespace farcell {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "preprocess/read/byte_stream.h"
+#include "preprocess/mesh/byte_stream.h"
 
 namespace farcell {
 

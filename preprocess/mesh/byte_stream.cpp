@@ -1,4 +1,4 @@
-#include "preprocess/read/byte_stream.h"
+#include "preprocess/mesh/byte_stream.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,8 +1,8 @@
-#include "preprocess/read/triangle_batch.h"
+#include "preprocess/mesh/triangle_batch.h"
 
 #include <cmath>
 
-#include "preprocess/read/zero_area.h"
+#include "preprocess/mesh/zero_area.h"
 
 namespace farcell {
 namespace {

@@ -1,8 +1,8 @@
-#include "preprocess/read/obj_face.h"
+#include "preprocess/read/obj/obj_face.h"
 
 #include <algorithm>
 
-#include "preprocess/read/number_text.h"
+#include "preprocess/mesh/number_text.h"
 
 namespace farcell {
 namespace {

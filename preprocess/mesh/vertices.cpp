@@ -1,4 +1,4 @@
-#include "preprocess/read/vertices.h"
+#include "preprocess/mesh/vertices.h"
 
 #include "cache/schema/model.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "preprocess/read/ply_source.h"
-#include "preprocess/read/vertices.h"
+#include "preprocess/mesh/vertices.h"
+#include "preprocess/read/ply/ply_source.h"
 
 namespace farcell {
 

@@ -1,0 +1,1 @@
+farcell_tests(preprocess/mesh DEPS farcell_preprocess_mesh)
