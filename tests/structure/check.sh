@@ -41,7 +41,7 @@ layers() {
       add("cache/pack/", "base", 3); add("cache/store/", "base", 4)
       add("datasets/", "datasets", 5)
       add("preprocess/mesh/", "preprocess", 7); add("preprocess/texture/", "preprocess", 8)
-      split("ply obj stl off gltf", formats, " ")
+      split("ply obj stl off gltf scene", formats, " ")
       for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
@@ -88,6 +88,7 @@ dependencies() {
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
+  heavy nlohmann '[<"]nlohmann/' '^(preprocess/read/(scene|gltf)|runtime/camera|tools|tests)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'
   heavy GoogleTest '[<"](gtest|gmock)/' '^tests/'
   heavy 'Google Benchmark' '[<"]benchmark/' '^tests/bench/'

@@ -45,10 +45,10 @@ Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Mo
 
 Result<std::optional<MeshReference>> loadMesh(const EvaluateOptions& options, const Directory& directory,
                                               Progress& progress) {
-  if (options.mesh.empty()) return std::nullopt;
+  if (options.meshes.empty()) return std::nullopt;
   progress.begin("read mesh", directory.report.inputTriangles, "triangles");
   FARCELL_ASSIGN(MeshReference mesh,
-                 MeshReference::load(options.mesh, directory, [&](uint64_t count) { progress.advance(count); }));
+                 MeshReference::load(options.meshes, directory, [&](uint64_t count) { progress.advance(count); }));
   return mesh;
 }
 
@@ -115,7 +115,7 @@ ReportFacts reportFacts(const EvaluateOptions& options, const PackFile& pack, co
   facts.timedFrames = options.timedFrames;
   facts.background = options.background;
   facts.glRenderer = context.renderer();
-  facts.referenceKind = options.mesh.empty() ? "pack" : "mesh";
+  facts.referenceKind = options.meshes.empty() ? "pack" : "mesh";
   facts.referenceSamples = options.referenceSamples;
   return facts;
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cache/base/result.h"
 #include "runtime/selection/selection.h"
@@ -19,8 +20,8 @@ struct EvaluateOptions {
   std::filesystem::path pack;
   std::filesystem::path cameras;  // a camera file; empty: autoCameras
   int autoCameras = 0;
-  std::filesystem::path mesh;    // empty: the pack's own leaves are the truth
-  std::filesystem::path output;  // directory, made when absent
+  std::vector<std::filesystem::path> meshes;  // empty: the pack's own leaves are the truth
+  std::filesystem::path output;               // directory, made when absent
   std::string renderers;
   int width = 1280;
   int height = 720;

@@ -37,8 +37,10 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
                  "instead: this many cameras between the baked directions, .25 to 8 diameters away")
       ->check(CLI::Range(1, 1000))
       ->excludes(cameras);
-  app.add_option("--mesh", options.mesh,
-                 "the file the pack was built from, as the truth instead of the pack's own triangles (held in memory)");
+  app.add_option("--mesh", options.meshes,
+                 "the file the pack was built from, as the truth instead of the pack's own triangles (held in memory); "
+                 "once for each file, in the order of the build")
+      ->allow_extra_args(false);
   app.add_option("--size", words.size, "pixels")->capture_default_str();
   app.add_option("--renderers", options.renderers, "comma-separated; full-1spp and full-4spp are always included")
       ->default_val(kAllRenderers);

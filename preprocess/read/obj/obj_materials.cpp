@@ -29,13 +29,14 @@ bool parseKd(std::string_view rest, uint32_t& colour) {
 }  // namespace
 
 bool ObjMaterials::addLibrary(std::string_view name) {
-  const std::filesystem::path path(name);
+  const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
   if (!staysInside(path)) return false;
-  if (libraries_.contains(std::string(name))) return true;
+  if (libraries_.contains(path.string())) return true;
   if (libraries_.size() >= kMaxLibraries) return false;
   const Result<InputFile> file = InputFile::open(directory_ / path);
   if (!file || file->sizeBytes() > kMaxLibraryBytes) return false;
-  libraries_.emplace(name);
+  libraries_.insert(path.string());
+  files_.push_back(directory_ / path);
   ObjLines lines(*file);
   std::string material;
   for (std::string_view line; lines.next(line);) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 namespace farcell {
 
@@ -20,13 +21,16 @@ class ObjMaterials {
   void addLibraries(std::string_view names);
   // Null when the material is unknown or has no Kd.
   const uint32_t* find(std::string_view material) const;
+  // The libraries that were read, in the order of the OBJ file.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
   bool addLibrary(std::string_view name);
 
   std::filesystem::path directory_;
   std::unordered_map<std::string, uint32_t> colours_;
-  std::unordered_set<std::string> libraries_;  // tried already
+  std::unordered_set<std::string> libraries_;  // names read already
+  std::vector<std::filesystem::path> files_;
 };
 
 }  // namespace farcell

@@ -105,6 +105,8 @@ class ObjReader final : public MeshReader {
  public:
   ObjReader(InputFile file, ObjContents contents, ObjMaterials materials)
       : file_(std::move(file)), vertices_(std::move(contents.vertices)), materials_(std::move(materials)) {
+    info_.format = "OBJ";
+    info_.up = UpAxis::y;
     info_.vertices = vertices_.count();
     info_.declaredTriangles = contents.triangles;
     info_.hasColours = !vertices_.colours.empty();
@@ -114,7 +116,11 @@ class ObjReader final : public MeshReader {
   }
 
   const MeshInfo& info() const override { return info_; }
-  std::vector<std::filesystem::path> files() const override { return {file_.path()}; }
+  std::vector<std::filesystem::path> files() const override {
+    std::vector<std::filesystem::path> files = materials_.files();
+    files.insert(files.begin(), file_.path());
+    return files;
+  }
   Result<MeshCounts> forEachTriangle(const Sink& sink) override;
 
  private:

@@ -1,4 +1,4 @@
-#include "preprocess/read/obj/obj_text.h"
+#include "preprocess/mesh/text_lines.h"
 
 #include <cstring>
 
@@ -9,7 +9,7 @@ constexpr size_t kMaxLineBytes = size_t{64} << 20;  // a polygon of some ten mil
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 }  // namespace
 
-bool ObjLines::nextPhysical(std::string_view& line) {
+bool TextLines::nextPhysical(std::string_view& line) {
   stream_.advance(unread_);
   unread_ = 0;
   size_t length = 0;
@@ -33,11 +33,11 @@ bool ObjLines::nextPhysical(std::string_view& line) {
   return true;
 }
 
-bool ObjLines::next(std::string_view& line) {
+bool TextLines::next(std::string_view& line) {
   lineNumber_ = nextNumber_;
   lineOffset_ = stream_.offset() + unread_;
   if (!nextPhysical(line)) return false;
-  if (!line.ends_with('\\')) return true;
+  if (continuation_ == Continuation::none || !line.ends_with('\\')) return true;
   joined_.clear();
   bool more = true;
   while (more && line.ends_with('\\') && joined_.size() <= kMaxLineBytes) {
@@ -50,10 +50,16 @@ bool ObjLines::next(std::string_view& line) {
   return true;
 }
 
-tl::unexpected<Error> ObjLines::bad(const std::string& expected, std::string_view found) const {
+tl::unexpected<Error> TextLines::bad(const std::string& expected, std::string_view found) const {
   constexpr size_t kMaxQuoted = 60;
   return corrupt(fmt::format("{}: line {}", stream_.file().path(), lineNumber_), lineOffset_, expected,
                  fmt::format("'{}'", found.substr(0, kMaxQuoted)));
+}
+
+tl::unexpected<Error> TextLines::ended(const std::string& expected) const {
+  if (failure_) return tl::unexpected<Error>(*failure_);
+  return corrupt(fmt::format("{}: line {}", file().path(), nextNumber_), file().sizeBytes(), expected,
+                 "the end of the file");
 }
 
 std::string_view takeWord(std::string_view& rest) {
