@@ -6,6 +6,7 @@
 
 namespace farcell {
 namespace {
+const Vertices kNoVertices;
 constexpr size_t kBatchTriangles = 2048;  // 240 KiB: still in the cache when the sink reads them
 
 bool isFinite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -18,6 +19,8 @@ TriangleBatch::TriangleBatch(const Vertices& vertices, const MeshReader::Sink& s
       defaultColour_(defaultColour()),
       triangles_(kBatchTriangles) {}
 
+TriangleBatch::TriangleBatch(const MeshReader::Sink& sink) : TriangleBatch(kNoVertices, sink) {}
+
 // The corners' positions; false, and counted, when the triangle must be left out.
 bool TriangleBatch::gather(const Indices& positions, std::array<glm::dvec3, 3>& out) {
   if (positions[0] >= vertexCount_ || positions[1] >= vertexCount_ || positions[2] >= vertexCount_) {
@@ -25,11 +28,15 @@ bool TriangleBatch::gather(const Indices& positions, std::array<glm::dvec3, 3>& 
     return false;
   }
   for (size_t i = 0; i < 3; ++i) out[i] = vertices_.position(positions[i]);
-  if (!vertices_.allFinite && !(isFinite(out[0]) && isFinite(out[1]) && isFinite(out[2]))) {
+  return isUsable(out, vertices_.allFinite);
+}
+
+bool TriangleBatch::isUsable(const std::array<glm::dvec3, 3>& positions, bool areFinite) {
+  if (!areFinite && !(isFinite(positions[0]) && isFinite(positions[1]) && isFinite(positions[2]))) {
     ++nonFinite_;
     return false;
   }
-  if (hasZeroArea(out)) {
+  if (hasZeroArea(positions)) {
     ++zeroArea_;
     return false;
   }
@@ -44,6 +51,16 @@ void TriangleBatch::add(const Indices& positions, const Indices& normals, uint32
     triangle.colours[i] = colour == kNoColour ? faceColour : colour;
     triangle.normals[i] = normals[i] < vertices_.normals.size() ? vertices_.normals[normals[i]] : glm::vec3(0);
   }
+  take();
+}
+
+void TriangleBatch::add(const InputTriangle& triangle) {
+  if (failed() || !isUsable(triangle.positions, false)) return;
+  triangles_[used_] = triangle;
+  take();
+}
+
+void TriangleBatch::take() {
   ++accepted_;
   if (++used_ == kBatchTriangles) flush();
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 
+#include "preprocess/read/gltf/gltf_reader.h"
 #include "preprocess/read/obj/obj_reader.h"
 #include "preprocess/read/ply/ply_header.h"
 #include "preprocess/read/ply/ply_reader.h"
@@ -20,8 +21,7 @@ struct OtherFormat {
   const char* extension;
   const char* name;
 };
-constexpr std::array<OtherFormat, 4> kOtherFormats = {
-    {{".stl", "STL"}, {".off", "OFF"}, {".gltf", "glTF"}, {".glb", "binary glTF"}}};
+constexpr std::array<OtherFormat, 2> kOtherFormats = {{{".stl", "STL"}, {".off", "OFF"}}};
 
 }  // namespace
 
@@ -29,13 +29,15 @@ Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path) 
   FARCELL_ASSIGN(InputFile file, InputFile::open(path));
   const std::string extension = lowerExtension(path);
   if (startsLikePly(file) || extension == ".ply") return openPly(std::move(file));
+  if (startsLikeGltf(file) || extension == ".gltf" || extension == ".glb") return openGltf(std::move(file));
   if (extension == ".obj") return openObj(std::move(file));
   for (const OtherFormat& other : kOtherFormats)
     if (extension == other.extension)
-      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY or OBJ", file.path(),
+      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY, OBJ or glTF", file.path(),
                   other.name);
-  return fail(ErrorKind::unsupported, "{}: expected a PLY file or a name ending in .ply or .obj, found '{}'",
-              file.path(), extension);
+  return fail(ErrorKind::unsupported,
+              "{}: expected a PLY or GLB file, or a name ending in .ply, .obj, .gltf or .glb, found '{}'", file.path(),
+              extension);
 }
 
 }  // namespace farcell

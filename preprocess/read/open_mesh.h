@@ -8,7 +8,8 @@
 
 namespace farcell {
 
-// Chosen by content (PLY magic) and name (.ply, .obj). unsupported for other formats, named in the message.
+// Chosen by content (magic of PLY and GLB) and name (.ply, .obj, .gltf, .glb). unsupported for other formats, named in
+// the message.
 Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path);
 
 }  // namespace farcell
