@@ -9,8 +9,8 @@ packages=(
   g++ cmake ninja-build pkg-config
   # cache: messages, results, checksums, coding; vectors of all layers
   libfmt-dev libexpected-dev libxxhash-dev libglm-dev libdeflate-dev zlib1g-dev libmeshoptimizer-dev
-  # preprocess: SIMD
-  libhwy-dev
+  # preprocess: SIMD; glTF and what it may be compressed by
+  libhwy-dev libtinygltf-dev libdraco-dev
   # runtime: OpenGL by EGL without a window, and Mesa's software renderer where there is no GPU
   libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
   # tools: command line, JSON, pictures, the ray tracer of the reference

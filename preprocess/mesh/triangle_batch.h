@@ -27,6 +27,7 @@ class TriangleBatch {
   void add(const Indices& positions, const Indices& normals, uint32_t faceColour);
   // Corners and looks as they are; checks the positions only.
   void add(const InputTriangle& triangle);
+  void skipBadIndex() { ++badIndex_; }  // a triangle whose vertices its reader did not find
   bool failed() const { return failure_.has_value(); }
   // Hands on what is left. The counts, or the error of the sink.
   Result<MeshCounts> finish();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 
+#include "preprocess/read/gltf/gltf_reader.h"
 #include "preprocess/read/obj/obj_reader.h"
 #include "preprocess/read/off/off_reader.h"
 #include "preprocess/read/ply/ply_header.h"
@@ -27,16 +28,12 @@ struct Format {
   OpenedMesh (*open)(InputFile);
   bool (*startsLike)(const InputFile&);  // null: the content alone says too little
 };
-constexpr std::array<Format, 4> kFormats = {{{".ply", openPly, startsLikePly},
+constexpr std::array<Format, 6> kFormats = {{{".ply", openPly, startsLikePly},
+                                             {".glb", openGltf, startsLikeGltf},
                                              {".off", openOff, startsLikeOff},
                                              {".stl", openStl, hasBinaryStlSize},
-                                             {".obj", openObj, nullptr}}};
-
-struct OtherFormat {
-  const char* extension;
-  const char* name;
-};
-constexpr std::array<OtherFormat, 2> kOtherFormats = {{{".gltf", "glTF"}, {".glb", "binary glTF"}}};
+                                             {".obj", openObj, nullptr},
+                                             {".gltf", openGltf, nullptr}}};
 
 OpenedMesh openFile(const std::filesystem::path& path) {
   FARCELL_ASSIGN(InputFile file, InputFile::open(path));
@@ -45,12 +42,9 @@ OpenedMesh openFile(const std::filesystem::path& path) {
     if (format.startsLike && format.startsLike(file)) return format.open(std::move(file));
   for (const Format& format : kFormats)
     if (extension == format.extension) return format.open(std::move(file));
-  for (const OtherFormat& other : kOtherFormats)
-    if (extension == other.extension)
-      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY, OBJ, STL or OFF", file.path(),
-                  other.name);
-  return fail(ErrorKind::unsupported, "{}: expected a mesh, with a name in .ply, .obj, .stl or .off, found '{}'",
-              file.path(), extension);
+  return fail(ErrorKind::unsupported,
+              "{}: expected a mesh, with a name in .ply, .obj, .stl, .off, .gltf or .glb, found '{}'", file.path(),
+              extension);
 }
 
 OpenedMesh openScene(const std::filesystem::path& path) {
