@@ -107,8 +107,8 @@ TEST(ReportJson, HoldsEveryMemberOfTheContractAndIsFinite) {
     for (const char* text : {"camera", "renderer", "class"}) EXPECT_TRUE(entry.at(text).is_string()) << text;
     EXPECT_TRUE(entry.at("settings").is_object());
     for (const char* number :
-         {"paperErrorSum", "paperError", "mae", "psnr", "ssim", "p95", "p99", "holeRate", "leakRate", "coverageBias",
-          "impostorShare", "cpuMs", "triangles", "texels", "bytesRead"})
+         {"paperErrorSum", "paperError", "mae", "psnr", "ssim", "flip", "p95", "p99", "holeRate", "leakRate",
+          "coverageBias", "impostorShare", "cpuMs", "triangles", "texels", "bytesRead"})
       EXPECT_TRUE(entry.at(number).is_number()) << number;
     for (const char* number : {"median", "p95", "max"})
       EXPECT_TRUE(entry.at("frameMs").at(number).is_number()) << number;
