@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "shaders/shared/shading.h"
+#include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/summary.h"
 
 namespace farcell {
@@ -46,6 +47,7 @@ Json optionalJson(const std::optional<double>& value) { return value ? Json(*val
 Json entryJson(const Entry& entry) {
   const Metrics& m = entry.metrics;
   return {{"camera", entry.camera},
+          {"stem", entry.stem},
           {"renderer", entry.renderer.name},
           {"class", entry.renderer.rendererClass},
           {"settings", settingsJson(entry.renderer.settings)},
@@ -91,7 +93,8 @@ Json summaryJson(const std::vector<Entry>& entries) {
                               {"mostlyImpostors", ratiosJson(summary.mostlyImpostors)},
                               {"elsewhere", ratiosJson(summary.elsewhere)},
                               {"medianFrameMs", summary.medianFrameMs},
-                              {"worstHoleRate", summary.worstHoleRate}};
+                              {"worstHoleRate", summary.worstHoleRate},
+                              {"meanFlip", summary.meanFlip}};
   }
   return json;
 }
@@ -128,6 +131,8 @@ Json factsJson(const ReportFacts& facts) {
            {{"kind", facts.referenceKind}, {"samples", facts.referenceSamples}, {"seconds", facts.referenceSeconds}}},
           {"timedFrames", facts.timedFrames},
           {"psnrCap", kMaxPsnrDb},
+          {"flipPixelsPerDegree", kFlipPixelsPerDegree},
+          {"differenceGain", kDifferenceGain},
           {"machine", {{"processor", processorName()}, {"threads", std::thread::hardware_concurrency()}}},
           {"gl", facts.glRenderer}};
 }
