@@ -20,27 +20,18 @@ const whole = (value) => grouped(String(Math.round(value)));
 const fixed = (decimals) => (value) => (value === null ? missing : value.toFixed(decimals));
 const percent = (value) => (100 * value).toFixed(2);
 
-// Of 1000, as the sizes of disks and in the README.
-function bytes(value) {
-  const units = ["B", "kB", "MB", "GB", "TB"];
-  let unit = 0;
-  while (value >= 999.5 && unit + 1 < units.length) {
-    value /= 1000;
-    ++unit;
-  }
-  return `${unit === 0 ? whole(value) : figure(value)} ${units[unit]}`;
-}
-
-// 12000 -> 12k: for the axes of counts.
+// For axes: 12000 -> 12k.
 function short(value) {
-  const units = ["", "k", "M", "G"];
+  const units = ["", "k", "M", "G", "T"];
   let unit = 0;
-  while (Math.abs(value) >= 1000 && unit + 1 < units.length) {
+  while (Math.abs(value) >= 999.5 && unit + 1 < units.length) {
     value /= 1000;
     ++unit;
   }
   return `${Number(value.toPrecision(3))}${units[unit]}`;
 }
+// Of 1000, as the sizes of disks.
+const bytes = (value) => short(value).replace(/(\D?)$/, " $1B");
 
 const svgSpace = "http://www.w3.org/2000/svg";
 

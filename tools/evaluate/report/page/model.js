@@ -54,9 +54,9 @@ const marks = { geometry: "circle", impostor: "square", mixed: "diamond" };
 const renderers = [];
 for (const entry of entries) {
   if (renderers.some((renderer) => renderer.name === entry.renderer)) continue;
-  const mark = marks[entry.class] ? entry.class : "mixed";
-  const place = renderers.filter((renderer) => renderer.mark === mark).length % 5;
-  renderers.push({ name: entry.renderer, kind: entry.class, mark, colour: `var(--${mark}-${place})`,
+  const family = marks[entry.class] ? entry.class : "mixed";
+  const place = renderers.filter((renderer) => renderer.family === family).length % 5;
+  renderers.push({ name: entry.renderer, family, mark: marks[family], colour: `var(--${family}-${place})`,
     settings: entry.settings });
 }
 const rendererOf = (entry) => renderers.find((renderer) => renderer.name === entry.renderer);

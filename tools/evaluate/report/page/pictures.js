@@ -148,6 +148,6 @@ function makePictures() {
   viewer.rightCaption = element("p");
   byId("viewer").append(viewer.frame, viewer.range, viewer.key,
     element("div", { class: "captions" }, viewer.leftCaption, viewer.rightCaption));
-  new ResizeObserver(place).observe(viewer.frame);
+  addEventListener("resize", place);
   drawPictures();
 }

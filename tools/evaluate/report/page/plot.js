@@ -76,9 +76,15 @@ function medianLabels(plot, medians) {
   return labels;
 }
 
+// Of the figure's inside: its svg takes the whole of it.
+function plotWidth(plot) {
+  const style = getComputedStyle(plot.figure);
+  return Math.max(260, plot.figure.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight));
+}
+
 function drawPlot(plot) {
   const cost = figures[choice.costs[plot.index]];
-  plot.width = Math.max(280, plot.figure.clientWidth);
+  plot.width = plotWidth(plot);
   plot.height = Math.round(Math.min(400, Math.max(300, plot.width * 0.62)));
   const data = plotData(cost);
   plot.points = data.points;
@@ -91,9 +97,9 @@ function drawPlot(plot) {
   }
   const levels = metric().line ? [metric().line] : [];
   const xScale = makeScale(data.points.map((point) => point.x), plot.log.checked, margin.left,
-    plot.width - margin.right);
+    plot.width - margin.right, 56);
   const yScale = makeScale([...data.points.map((point) => point.y), ...levels], choice.metricLog,
-    plot.height - margin.bottom, margin.top);
+    plot.height - margin.bottom, margin.top, 30);
   for (const point of [...data.points, ...data.medians]) {
     point.px = xScale.at(point.x);
     point.py = yScale.at(point.y);
@@ -142,10 +148,12 @@ function showReadout(point, source) {
   source.readout.replaceChildren(element("b", {}, entry.camera), element("div", {}, swatch(renderer), entry.renderer),
     element("dl", {}, ...keys.flatMap((key) => [element("dt", {}, figures[key].name),
       element("dd", {}, figureText(figures[key], entry))])));
-  const scale = source.figure.clientWidth / source.width, left = point.px * scale;
-  source.readout.style.top = `${source.svg.offsetTop + point.py * scale + 12}px`;
-  source.readout.style.left = left > source.figure.clientWidth / 2 ? "auto" : `${left + 14}px`;
-  source.readout.style.right = left > source.figure.clientWidth / 2 ? `${source.figure.clientWidth - left + 14}px` : "auto";
+  const box = source.svg.getBoundingClientRect(), figureBox = source.figure.getBoundingClientRect();
+  const scale = box.width / source.width, left = box.left - figureBox.left + point.px * scale;
+  const top = box.top - figureBox.top + point.py * scale;
+  // Towards the middle of the figure, where there is room.
+  fill(source.readout, { style: (left > figureBox.width / 2 ? `right:${figureBox.width - left + 14}px;` : `left:${left + 14}px;`) +
+    (top > figureBox.height / 2 ? `bottom:${figureBox.height - top + 10}px` : `top:${top + 10}px`) }, []);
 }
 
 function makePlot(figureNode, index) {
@@ -201,5 +209,6 @@ function makePlots() {
   makeLegend();
   makePlot(byId("plot-time"), 0);
   makePlot(byId("plot-bytes"), 1);
-  new ResizeObserver(() => plots.forEach(drawPlot)).observe(byId("plot-time"));
+  plots.forEach(drawPlot);
+  addEventListener("resize", () => plots.filter((plot) => plot.width !== plotWidth(plot)).forEach(drawPlot));
 }

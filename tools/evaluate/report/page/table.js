@@ -41,9 +41,13 @@ function makeSummary() {
     ({ title, hint, numeric: true, value, text: (row) => format(value(row)) });
   const part = (group) => (row) => row[group].cameras
     ? `${fixed(3)(row[group].ratioToFull1spp)} (${row[group].cameras})` : missing;
-  const bar = (row) => element("span", { class: "bar",
-    style: `--part:${row.ratioToFull1spp === null ? 0 : (100 * row.ratioToFull1spp / most).toFixed(1)}%` },
-    fixed(3)(row.ratioToFull1spp));
+  const bar = (row) => {
+    const renderer = renderers.find((item) => item.name === row.name);
+    const width = (100 * (row.ratioToFull1spp ?? 0) / most).toFixed(1);
+    return element("span", { class: "bar" },
+      element("span", {}, element("span", { style: `width:${width}%;background:${renderer?.colour}` })),
+      fixed(3)(row.ratioToFull1spp));
+  };
   makeTable(byId("summary"), [
     { title: "Renderer", hint: "", value: (row) => row.name, cell: (row) => rendererCell(row.name) },
     { title: "Class", hint: "", value: (row) => row.class, text: (row) => row.class },
