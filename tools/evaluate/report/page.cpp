@@ -18,7 +18,8 @@ std::string_view pageFile(const std::string& name) {
 // In the order in which they build on each other.
 std::string script() {
   std::string text;
-  for (const char* name : {"format.js", "model.js", "scale.js", "plot.js", "table.js", "pictures.js", "main.js"})
+  for (const char* name :
+       {"format.js", "model.js", "scale.js", "plot.js", "plot_controls.js", "table.js", "pictures.js", "main.js"})
     text += pageFile(name);
   return text;
 }

@@ -1,11 +1,13 @@
 // Fills the page.
 
+const pictureSize = `${report.size[0]} × ${report.size[1]} pixels`;
+
 function makeHeader() {
   byId("version").textContent = ` ${report.version}`;
   byId("title").textContent = report.pack.name;
   document.title = `${report.pack.name} – farcell report`;
   byId("lead").textContent = `${whole(report.pack.triangles)} triangles from ${report.pack.source}, ` +
-    `${cameras.length} cameras, ${renderers.length} renderers, pictures of ${report.size[0]} × ${report.size[1]} pixels ` +
+    `${cameras.length} cameras, ${renderers.length} renderers, pictures of ${pictureSize} ` +
     `against ${report.reference.samples} samples a pixel of the full geometry.`;
   const incomplete = byId("incomplete");
   incomplete.hidden = report.complete;
@@ -30,9 +32,10 @@ function makeSettings() {
       ["Triangles", whole(pack.triangles)], ["Views of a cell", String(pack.views)],
       ["View", `${pack.imageSize} × ${pack.imageSize} texels, ${pack.samples} samples each`],
       ["Triangles of a leaf", `at most ${whole(pack.leafTriangles)}`]]),
-    card("Reference", [["Geometry", reference.kind === "mesh" ? "the original file, ray traced" : "the pack's own triangles, ray traced"],
+    card("Reference", [
+      ["Geometry", `${reference.kind === "mesh" ? "the original file" : "the pack's own triangles"}, ray traced`],
       ["Samples a pixel", String(reference.samples)], ["Time, all cameras", `${figure(reference.seconds)} s`],
-      ["Picture", `${report.size[0]} × ${report.size[1]} pixels`], ["Background", colourValue(report.background)],
+      ["Picture", pictureSize], ["Background", colourValue(report.background)],
       ["Sun", light.sun.map((value) => value.toFixed(3)).join(", ")],
       ["Light", `ambient ${figure(light.ambient)}, diffuse ${figure(light.diffuse)}`]]),
     card("Machine", [["Processor", machine.processor], ["Threads", String(machine.threads)], ["OpenGL", report.gl],

@@ -12,7 +12,8 @@ function pictureFile(side, mode) {
 function picture(side, mode, attributes) {
   const node = element("img", { src: pictureFile(side, mode), alt: `${side}, ${mode}`, draggable: "false",
     width: report.size[0], height: report.size[1], ...attributes });
-  node.addEventListener("error", () => node.replaceWith(element("span", { class: "absent" }, `${pictureFile(side, mode)} is not there`)));
+  const file = pictureFile(side, mode);
+  node.addEventListener("error", () => node.replaceWith(element("span", { class: "absent" }, `${file} is not there`)));
   return node;
 }
 
@@ -47,8 +48,8 @@ function startDrag(event) {
   };
   viewer.frame.setPointerCapture(event.pointerId);
   viewer.frame.addEventListener("pointermove", move);
-  viewer.frame.addEventListener("pointerup", () => viewer.frame.removeEventListener("pointermove", move), { once: true });
-  viewer.frame.addEventListener("pointercancel", () => viewer.frame.removeEventListener("pointermove", move), { once: true });
+  for (const end of ["pointerup", "pointercancel"])
+    viewer.frame.addEventListener(end, () => viewer.frame.removeEventListener("pointermove", move), { once: true });
   move(event);
 }
 
@@ -69,7 +70,8 @@ function strip() {
       picturesChanged();
     } }, picture(side, choice.mode, { loading: "lazy" }), element("span", { class: "caption" },
       element("b", {}, ...(entry ? [swatch(rendererOf(entry))] : []), side),
-      entry ? `error ${figureText(figures.paperError, entry)} · FLIP ${figureText(figures.flip, entry)}` : "the truth"));
+      entry ? ["paperError", "flip"].map((key) => `${figures[key].name} ${figureText(figures[key], entry)}`).join(" · ")
+        : "the truth"));
   });
 }
 
@@ -103,36 +105,7 @@ function showPictures(entry) {
   byId("pictures-heading").scrollIntoView({ behavior: "smooth" });
 }
 
-function makePictures() {
-  const button = (text, label, onclick) => element("button", { type: "button", "aria-label": label, title: label, onclick }, text);
-  const sideChooser = (side) => select(sides.map((name) => [name, name]), choice[side], (name) => {
-    choice[side] = name;
-    picturesChanged();
-  });
-  viewer.cameras = select(cameras.map((camera) => [camera.stem, camera.name || "(no name)"]), choice.camera, (stem) => {
-    choice.camera = stem;
-    picturesChanged();
-  });
-  viewer.lefts = sideChooser("left");
-  viewer.rights = sideChooser("right");
-  const modeNames = { picture: "Picture", difference: "Difference", flip: "FLIP" };
-  viewer.modes = element("span", { class: "buttons" }, ...modes.map((mode) => element("button", { type: "button", value: mode,
-    onclick: () => {
-      choice.mode = mode;
-      picturesChanged();
-    } }, modeNames[mode])));
-  viewer.scale = element("span", { class: "scale" });
-  byId("picture-controls").append(
-    element("span", { class: "group" }, element("label", {}, "Camera ", viewer.cameras),
-      button("‹", "Previous camera", () => stepCamera(-1)), button("›", "Next camera", () => stepCamera(1))),
-    element("span", { class: "group" }, element("label", {}, "Left ", viewer.lefts), button("⇄", "Swap left and right", () => {
-      [choice.left, choice.right] = [choice.right, choice.left];
-      picturesChanged();
-    }), element("label", {}, "Right ", viewer.rights)),
-    viewer.modes,
-    element("span", { class: "group" }, button("−", "Smaller", () => zoomTo(Math.max(1, view.zoom / 2))), viewer.scale,
-      button("+", "Larger", () => zoomTo(Math.min(16, view.zoom * 2)))));
-
+function makeFrame() {
   viewer.left = element("div", { class: "layer" });
   viewer.right = element("div", { class: "layer" });
   viewer.handle = element("div", { class: "handle" });
@@ -149,5 +122,44 @@ function makePictures() {
   byId("viewer").append(viewer.frame, viewer.range, viewer.key,
     element("div", { class: "captions" }, viewer.leftCaption, viewer.rightCaption));
   addEventListener("resize", place);
+}
+
+// A chooser of choice[name].
+const pictureSelect = (name, choices) => select(choices, choice[name], (value) => {
+  choice[name] = value;
+  picturesChanged();
+});
+
+const iconButton = (text, label, onclick) =>
+  element("button", { type: "button", "aria-label": label, title: label, onclick }, text);
+
+function makePictureControls() {
+  viewer.cameras = pictureSelect("camera", cameras.map((camera) => [camera.stem, camera.name || "(no name)"]));
+  viewer.lefts = pictureSelect("left", sides.map((side) => [side, side]));
+  viewer.rights = pictureSelect("right", sides.map((side) => [side, side]));
+  const swap = iconButton("⇄", "Swap left and right", () => {
+    [choice.left, choice.right] = [choice.right, choice.left];
+    picturesChanged();
+  });
+  const modeButton = ([value, text]) => element("button", { type: "button", value, onclick: () => {
+    choice.mode = value;
+    picturesChanged();
+  } }, text);
+  viewer.modes = element("span", { class: "buttons" },
+    ...[["picture", "Picture"], ["difference", "Difference"], ["flip", "FLIP"]].map(modeButton));
+  viewer.scale = element("span", { class: "scale" });
+  const group = (...children) => element("span", { class: "group" }, ...children);
+  byId("picture-controls").append(
+    group(element("label", {}, "Camera ", viewer.cameras), iconButton("‹", "Previous camera", () => stepCamera(-1)),
+      iconButton("›", "Next camera", () => stepCamera(1))),
+    group(element("label", {}, "Left ", viewer.lefts), swap, element("label", {}, "Right ", viewer.rights)),
+    viewer.modes,
+    group(iconButton("−", "Smaller", () => zoomTo(Math.max(1, view.zoom / 2))), viewer.scale,
+      iconButton("+", "Larger", () => zoomTo(Math.min(16, view.zoom * 2)))));
+}
+
+function makePictures() {
+  makePictureControls();
+  makeFrame();
   drawPictures();
 }

@@ -15,10 +15,11 @@ function makeTable(table, columns, rows, rowAttributes) {
     element("button", { type: "button", title: column.hint }, column.title)));
   const sort = (index, down) => {
     const column = columns[index];
-    headings.forEach((heading, i) => fill(heading, { "aria-sort": i === index ? (down ? "descending" : "ascending") : "none" }, []));
+    const order = down ? "descending" : "ascending";
+    headings.forEach((heading, i) => heading.setAttribute("aria-sort", i === index ? order : "none"));
     made.sort((a, b) => {
-      const x = column.value(a.row), y = column.value(b.row), order = compareValues(x, y);
-      return down && x !== null && y !== null ? -order : order;
+      const x = column.value(a.row), y = column.value(b.row), sign = down && x !== null && y !== null ? -1 : 1;
+      return sign * compareValues(x, y);
     });
     body.append(...made.map((item) => item.node));
   };
@@ -51,7 +52,8 @@ function makeSummary() {
   makeTable(byId("summary"), [
     { title: "Renderer", hint: "", value: (row) => row.name, cell: (row) => rendererCell(row.name) },
     { title: "Class", hint: "", value: (row) => row.class, text: (row) => row.class },
-    { title: "Ratio", hint: "Geometric mean over all cameras", numeric: true, value: (row) => row.ratioToFull1spp, cell: bar },
+    { title: "Ratio", hint: "Geometric mean over all cameras", numeric: true, value: (row) => row.ratioToFull1spp,
+      cell: bar },
     numeric("Worst", "The worst camera's ratio", (row) => row.worstRatio, fixed(3)),
     { title: "Mostly impostors (n)", hint: "Ratio where impostors draw at least 80 % of the foreground", numeric: true,
       value: (row) => row.mostlyImpostors.ratioToFull1spp, text: part("mostlyImpostors") },
