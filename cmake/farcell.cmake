@@ -43,3 +43,20 @@ function(farcell_program directory name)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE farcell_settings ${ARG_DEPS})
 endfunction()
+
+# farcell_embed(<library> HEADER <header> FUNCTION <name> FILES <paths from the repository root>...): a library of the
+# function, declared in the header, that gives the text of each file: it travels inside the program.
+function(farcell_embed library)
+  cmake_parse_arguments(ARG "" "HEADER;FUNCTION" "FILES" ${ARGN})
+  list(TRANSFORM ARG_FILES PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${library}.cpp)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
+  add_custom_command(
+    OUTPUT ${embedded}
+    COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -DOUTPUT=${embedded} -DHEADER=${ARG_HEADER}
+            -DFUNCTION=${ARG_FUNCTION} "-DFILES=${ARG_FILES}" -P ${script}
+    DEPENDS ${paths} ${script}
+    VERBATIM)
+  add_library(${library} STATIC ${embedded})
+  target_link_libraries(${library} PUBLIC farcell_settings)
+endfunction()

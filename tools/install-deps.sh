@@ -17,6 +17,8 @@ packages=(
   libcli11-dev nlohmann-json3-dev libopenimageio-dev libembree-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev
+  # tests: the browser that opens a report
+  chromium
   # to unpack models that come compressed
   xz-utils
 )

@@ -13,7 +13,7 @@ sources() {
 }
 texts() {
   find . -path ./.git -prune -o -path './build*' -prune -o -type f \
-    \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.txt' -o -name '*.cmake' -o -name '*.json' -o -name run \) -print |
+    \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.txt' -o -name '*.cmake' -o -name '*.html' -o -name '*.css' -o -name '*.js' -o -name '*.json' -o -name run \) -print |
     cut -c3- | sort
 }
 

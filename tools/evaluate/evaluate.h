@@ -2,7 +2,7 @@
 // 1. open pack, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
 // 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
 //    (metrics/) and time it;
-// 3. write report.json, report.csv, cameras.json and pictures (report/).
+// 3. write report.json, report.csv, index.html, cameras.json and pictures (report/).
 #pragma once
 
 #include <cstdint>
