@@ -32,14 +32,15 @@ layers() {
       if (from == to) return 1
       if (rank[to] >= rank[from]) return 0
       # base: for all. datasets sees cache/base alone. preprocess and runtime never see each other.
-      if (chainOf[from] == "datasets") return to == "cache/base/"
+      if (chainOf[from] == "datasets") return to == "cache/base/" || chainOf[to] == "datasets"
       if (chainOf[to] == "base" || chainOf[from] == "top") return 1
       return chainOf[from] == chainOf[to]
     }
     BEGIN {
       add("shaders/", "base", 0); add("cache/base/", "base", 1); add("cache/schema/", "base", 2)
       add("cache/pack/", "base", 3); add("cache/store/", "base", 4)
-      add("datasets/", "datasets", 5)
+      # Models side by side, over what they share.
+      add("datasets/ply/", "datasets", 5); add("datasets/random/", "datasets", 5); add("datasets/", "datasets", 6)
       add("preprocess/mesh/", "preprocess", 7); add("preprocess/texture/", "preprocess", 8)
       split("ply obj stl off gltf scene", formats, " ")
       for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)

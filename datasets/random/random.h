@@ -1,9 +1,9 @@
-// Numbers that depend on a key alone: every block, lot and tree of a city has its own sequence.
+// Numbers that depend on a key alone: every block of a city, every fold of a statue has its own.
 #pragma once
 
 #include <cstdint>
 
-namespace farcell::city {
+namespace farcell {
 
 // One step of SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, 2014).
 constexpr uint64_t mixed(uint64_t value) {
@@ -22,7 +22,7 @@ constexpr uint64_t keyOf(uint64_t seed, int64_t a, int64_t b = 0, int64_t c = 0)
 constexpr double unitOf(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 // A sequence. Two draws never stand among the arguments of one call or the operands of one operator: their order, and
-// with it the city, would be the compiler's choice (in a braced list it is left to right).
+// with it the model, would be the compiler's choice (in a braced list it is left to right).
 class Random {
  public:
   explicit constexpr Random(uint64_t key) : state_(key) {}
@@ -38,4 +38,4 @@ class Random {
   uint64_t state_;
 };
 
-}  // namespace farcell::city
+}  // namespace farcell
