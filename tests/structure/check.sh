@@ -78,13 +78,14 @@ heavy() {
 }
 dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
-  heavy OpenImageIO '[<"]OpenImageIO/' '^(tools/image|preprocess/texture|tests/support)/'
+  heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
   heavy tinygltf '[<"]tiny_gltf' '^(preprocess/read/gltf|tests)/'
   heavy draco '[<"]draco/' '^(preprocess/read/gltf|tests)/'
-  heavy GLFW '[<"]GLFW/' '^runtime/gl/'
+  heavy GLFW '[<"]GLFW/' '^runtime/gl/window/'
+  heavy libpng '[<"]png\.h' '^tools/image/png\.cpp'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
