@@ -28,7 +28,7 @@ void BackdropPainter::paint(const FrameTarget& frame, const Backdrop& backdrop, 
   setColour(program_, kZenith, backdrop.zenith);
   setColour(program_, kHorizon, backdrop.horizon);
   setColour(program_, kNadir, backdrop.nadir);
-  glProgramUniform4f(program_.name(), kUp, upInView.x, upInView.y, upInView.z, static_cast<float>(share));
+  glProgramUniform3f(program_.name(), kUp, upInView.x, upInView.y, upInView.z);
   glProgramUniform2f(program_.name(), kTangents, static_cast<float>(tanY * frame.width() / frame.height()),
                      static_cast<float>(tanY));
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -36,7 +36,8 @@ void BackdropPainter::paint(const FrameTarget& frame, const Backdrop& backdrop, 
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendColor(0.0f, 0.0f, 0.0f, static_cast<float>(share));
+  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
   glUseProgram(program_.name());
   glBindVertexArray(bare_.name());
   glBindTextureUnit(0, frame.colour());

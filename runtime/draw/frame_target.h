@@ -24,6 +24,7 @@ class FrameTarget {
   void resolve() const;
   // The texture of the means, after resolve; row 0 is the bottom row.
   GLuint colour() const { return result().colour.name(); }
+  GLuint framebuffer() const { return drawn_.framebuffer.name(); }  // what `begin` binds
   // After resolve; row 0 is the top row. Waits for the GPU.
   std::vector<uint8_t> readColour() const;
   std::vector<uint8_t> readCoverage() const;  // REQUIRES: withCoverage
