@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace farcell {
 namespace {
@@ -13,10 +14,16 @@ constexpr double kRestShare = 1e-6;  // of the distance
 
 glm::dvec3 anchorOf(const CameraPose& pose, Anchor anchor) { return anchor == Anchor::eye ? pose.eye : pivotOf(pose); }
 
+// Far from the origin coordinates are rounded: places that differ by that alone are the same.
+double roundingOf(glm::dvec3 place) {
+  return 4 * std::numeric_limits<double>::epsilon() *
+         std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+}
+
 bool near(const CameraPose& a, const CameraPose& b) {
   const double angle = std::max(std::abs(a.yawRad - b.yawRad), std::abs(a.pitchRad - b.pitchRad));
   return angle < kRestRad && std::abs(std::log(a.distance / b.distance)) < kRestShare &&
-         glm::length(a.eye - b.eye) < kRestShare * std::min(a.distance, b.distance);
+         glm::length(a.eye - b.eye) <= kRestShare * std::min(a.distance, b.distance) + roundingOf(a.eye);
 }
 
 }  // namespace
@@ -39,6 +46,6 @@ void CameraMotion::advance(double seconds, glm::dvec3 velocity, Anchor anchor) {
   if (velocity == glm::dvec3(0) && near(seen_, goal_)) seen_ = goal_;
 }
 
-bool CameraMotion::resting() const { return seen_.eye == goal_.eye && near(seen_, goal_); }
+bool CameraMotion::resting() const { return near(seen_, goal_); }
 
 }  // namespace farcell

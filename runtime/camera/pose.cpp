@@ -12,6 +12,9 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 // A camera's target lies at least this share of the eye's coordinates away: nearer, the direction to it would be
 // rounded.
 constexpr double kLeastReach = 1e-6;
+// Squares of distances stay finite and above zero.
+constexpr double kLeastDistance = 1e-150;
+constexpr double kMostDistance = 1e150;
 
 // Where yaw 0 looks: horizontal, the same for the same up axis.
 glm::dvec3 northOf(glm::dvec3 up) {
@@ -38,7 +41,7 @@ CameraPose poseOf(const Camera& camera) {
   pose.eye = camera.position;
   pose.up = glm::normalize(camera.up / std::max({std::abs(camera.up.x), std::abs(camera.up.y), std::abs(camera.up.z)}));
   pose.fovYRad = camera.fovYRad;
-  pose.distance = glm::length(camera.target - camera.position);
+  pose.distance = std::clamp(glm::length(camera.target - camera.position), kLeastDistance, kMostDistance);
   // Right is horizontal for every pitch, straight up and down too.
   const glm::dvec3 north = northOf(pose.up);
   const glm::dvec3 heading = glm::cross(pose.up, axes.right);
