@@ -18,8 +18,6 @@ class CameraMotion {
   const CameraPose& goal() const { return goal_; }
   const CameraPose& seen() const { return seen_; }
   void setGoal(const CameraPose& goal) { goal_ = goal; }
-  // Both at once, without a way between.
-  void jump(const CameraPose& pose) { goal_ = seen_ = pose; }
   // Both pivots are moved along the views; nothing is seen of it.
   void setDistance(double distance) { goal_.distance = seen_.distance = distance; }
 
