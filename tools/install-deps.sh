@@ -13,12 +13,16 @@ packages=(
   libhwy-dev libtinygltf-dev libdraco-dev
   # runtime: OpenGL by EGL without a window, and Mesa's software renderer where there is no GPU
   libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
+  # view: the window
+  libglfw3-dev
   # tools: command line, JSON, pictures, the ray tracer of the reference
-  libcli11-dev nlohmann-json3-dev libopenimageio-dev libembree-dev
+  libcli11-dev nlohmann-json3-dev libpng-dev libopenimageio-dev libembree-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev
   # tests: the browser that opens a report
   chromium
+  # to test the window: a display without a screen, and a hand for its keys
+  xvfb xdotool
   # to unpack models that come compressed
   xz-utils
 )

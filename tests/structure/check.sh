@@ -50,10 +50,11 @@ layers() {
       add("runtime/gl/", "runtime", 9)
       add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
       add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
-      # What several programs share (tools/cli, image, report) lies below the programs, which never see each other.
+      # What several programs share (tools/cli, image, options, report) lies below the programs, which never see each other.
       add("tools/cli/", "top", 20); add("tools/image/", "top", 20); add("tools/report/", "top", 20)
+      add("tools/options/", "top", 21)
       split("build info verify render evaluate generate extract view farcell", verbs, " ")
-      for (i in verbs) add("tools/" verbs[i] "/", "top", 21)
+      for (i in verbs) add("tools/" verbs[i] "/", "top", 22)
       add("tests/", "top", 30)
     }
     FNR == 1 {
@@ -79,13 +80,14 @@ heavy() {
 }
 dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
-  heavy OpenImageIO '[<"]OpenImageIO/' '^(tools/image|preprocess/texture|tests/support)/'
+  heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
   heavy tinygltf '[<"]tiny_gltf' '^(preprocess/read/gltf|tests)/'
   heavy draco '[<"]draco/' '^(preprocess/read/gltf|tests)/'
-  heavy GLFW '[<"]GLFW/' '^runtime/gl/'
+  heavy GLFW '[<"]GLFW/' '^runtime/gl/window/'
+  heavy libpng '[<"]png\.h' '^tools/image/png\.cpp'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
