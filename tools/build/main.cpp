@@ -28,36 +28,41 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   BuildSettings& settings = arguments.options.settings;
   arguments.leafTriangles = std::to_string(settings.leafTriangles);
   app.add_option("mesh", arguments.mesh, "mesh file: .ply or .obj")->required();
-  app.add_option("-o,--output", arguments.pack, "pack file to write")->required();
-  app.add_option("--views", settings.views, "viewpoints per cell: 12, 42, 162, 642 or 20, 80, 320, 1280")
+  app.add_option("-o,--output", arguments.pack, "pack file to write (.far)")->required();
+  app.add_option("--views", settings.views, "viewpoints per cell")
+      ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
       ->capture_default_str();
-  app.add_option("--image-size", settings.imageSize, "texels along a view's edge, a power of two, 16 to 1024")
+  app.add_option("--image-size", settings.imageSize, "texels along a view's edge")
+      ->check(CLI::IsMember({"16", "32", "64", "128", "256", "512", "1024"}))
       ->capture_default_str();
-  app.add_option("--samples", settings.samples, "samples per texel: 1, 4, 16 or 64")->capture_default_str();
+  app.add_option("--samples", settings.samples, "samples per texel")
+      ->check(CLI::IsMember({"1", "4", "16", "64"}))
+      ->capture_default_str();
   app.add_option("--leaf-triangles", arguments.leafTriangles, "a cell of more triangles is split, e.g. 8k")
+      ->type_name("COUNT")
       ->capture_default_str();
   app.add_option("--max-level", settings.maxLevel, "octree depth limit, 0 to 15")->capture_default_str();
   app.add_option("--fixed-level", settings.fixedLevel, "all leaves at this depth, as in the 2010 paper; -1: adaptive")
       ->capture_default_str();
-  app.add_option("--up", arguments.up, "up axis of the model: x, y or z (default: y for .obj, else z)");
+  app.add_option("--up", arguments.up, "up axis of the model; default: y for .obj, else z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--unit", arguments.unit, "length of a model unit: mm, cm, m, km, in, ft or metres as a number")
+      ->type_name("LENGTH")
       ->capture_default_str();
   app.add_flag("--normals", settings.bakeNormals, "views also keep a normal");
   app.add_option("--threads", arguments.options.threads, "worker threads; 0: all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_option("--work-dir", arguments.options.scratchDirectory,
-                 "directory for scratch files, about 200 bytes a triangle (default: where the pack goes)");
+                 "directory for scratch files, about 200 bytes a triangle; default: where the pack goes")
+      ->type_name("DIR");
   app.add_flag("--json", arguments.json, "print the report as JSON on stdout");
   app.add_flag("--quiet", arguments.quiet, "no progress on stderr");
 }
 
-Result<UpAxis> parseUp(const std::string& text, const std::filesystem::path& mesh) {
-  if (text == "x") return UpAxis::x;
-  if (text == "y") return UpAxis::y;
-  if (text == "z") return UpAxis::z;
+UpAxis chooseUp(const std::string& text, const std::filesystem::path& mesh) {
   if (text.empty()) return mesh.extension() == ".obj" ? UpAxis::y : UpAxis::z;
-  return fail(ErrorKind::invalidArgument, "--up: expected x, y or z, found '{}'", text);
+  return text == "x" ? UpAxis::x : text == "y" ? UpAxis::y : UpAxis::z;
 }
 
 Result<double> parseUnit(const std::string& text) {
@@ -95,7 +100,7 @@ Result<> run(Arguments& arguments) {
   BuildSettings& settings = arguments.options.settings;
   FARCELL_ASSIGN(const uint64_t leafTriangles, parseCount(arguments.leafTriangles));
   settings.leafTriangles = static_cast<int>(std::min<uint64_t>(leafTriangles, INT32_MAX));
-  FARCELL_ASSIGN(settings.up, parseUp(arguments.up, arguments.mesh));
+  settings.up = chooseUp(arguments.up, arguments.mesh);
   FARCELL_ASSIGN(settings.metresPerUnit, parseUnit(arguments.unit));
   Progress progress(!arguments.quiet);
   FARCELL_ASSIGN(const BuildResult result, buildPack(arguments.mesh, arguments.pack, arguments.options, progress));
@@ -114,7 +119,17 @@ Result<> run(Arguments& arguments) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Builds a pack from a mesh file.", "farcell build");
+  CLI::App app(
+      "Builds a pack from a mesh file.\n"
+      "The mesh is streamed and cut into the cells of an octree; each cell keeps its triangles and small pictures of "
+      "itself from many directions. Memory stays small whatever the size of the mesh; scratch files hold the model "
+      "meanwhile. The pack appears under its name when it is complete, and has the same bytes with any number of "
+      "threads.",
+      "farcell-build");
+  app.footer(
+      "Examples:\n"
+      "  farcell build city.ply -o city.far\n"
+      "  farcell build statue.obj --unit mm --views 162 -o statue.far --json > report.json\n");
   farcell::Arguments arguments;
   farcell::addOptions(app, arguments);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(arguments); });

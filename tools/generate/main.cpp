@@ -18,13 +18,19 @@ struct CityOptions {
 };
 
 CLI::App* addCityVerb(CLI::App& app, CityOptions& options) {
-  CLI::App* city = app.add_subcommand("city", "A procedural city, as binary PLY");
-  city->add_option("--triangles", options.triangles, "How many, e.g. 500k, 5M, 1G; at least 2k; within 5 % from 10k on")
+  CLI::App* city = app.add_subcommand("city", "A procedural city, as binary PLY.");
+  city->add_option("--triangles", options.triangles, "how many, e.g. 500k, 5M, 1G; at least 2k; within 5 % from 10k on")
+      ->type_name("COUNT")
       ->capture_default_str();
-  city->add_option("--seed", options.seed, "Another number, another city")->capture_default_str();
-  city->add_option("--threads", options.threads, "Threads; 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
-  city->add_option("-o,--output", options.output, "The file to write")->required();
-  city->add_flag("--json", options.json, "Counts on stdout as JSON");
+  city->add_option("--seed", options.seed, "another number, another city")->capture_default_str();
+  city->add_option("--threads", options.threads, "worker threads; 0: all")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  city->add_option("-o,--output", options.output, "mesh file to write (.ply)")->required();
+  city->add_flag("--json", options.json, "print counts as JSON on stdout");
+  city->footer(
+      "Examples:\n"
+      "  farcell generate city --triangles 2M --seed 7 -o city.ply\n");
   return city;
 }
 
@@ -53,7 +59,10 @@ Result<> generateCity(const CityOptions& options) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes models to try", "farcell-generate");
+  CLI::App app(
+      "Makes models to try the other programs on.\n"
+      "The same options give the same bytes, with any number of threads.",
+      "farcell-generate");
   farcell::CityOptions cityOptions;
   const CLI::App* city = farcell::addCityVerb(app, cityOptions);
   app.require_subcommand(1);

@@ -40,10 +40,18 @@ Result<> run(const std::string& path, bool asJson) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Says what a pack or a mesh file holds", "farcell-info");
+  CLI::App app(
+      "Says what a pack or a mesh file holds.\n"
+      "A pack is known by its content, a mesh by the ending of its name; a mesh is read to its end, so that the counts "
+      "are those a build would see.",
+      "farcell-info");
+  app.footer(
+      "Examples:\n"
+      "  farcell info city.far\n"
+      "  farcell info city.ply --json\n");
   std::string path;
   bool asJson = false;
   app.add_option("input", path, "pack, or mesh file (.ply, .obj)")->required();
-  app.add_flag("--json", asJson, "print JSON");
+  app.add_flag("--json", asJson, "print JSON on stdout");
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(path, asJson); });
 }

@@ -21,7 +21,7 @@ struct RenderOptions {
   std::string kind = "A";
   std::string triangleBudget = "500k";
   double texelPixels = kTexelPixels;
-  std::string samples = "4";
+  int samples = 4;
   std::string background;  // empty: kDefaultBackground
   std::string residentBytes = "1G";
   int repeat = 1;
