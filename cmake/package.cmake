@@ -15,3 +15,45 @@ foreach(program ${programs})
 endforeach()
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT farcell)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT plain)
+
+# The Debian package: farcell_<version>_<architecture>.deb.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "farcell contributors <contributors@farcell.example>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "walk through 3D models larger than memory")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+    "farcell builds a pack from a 3D model of any size: a city, a scanned statue.
+It draws pictures of the pack, near parts as triangles and far parts as
+prefiltered orthographic images corrected by depth, and measures in numbers
+how far each picture is from the full geometry and what it cost.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL farcell debian)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+# Libraries that are linked are found by their symbols; OpenGL is opened at run time.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+# debian_file(<name in cmake/debian>): with its @variables@ filled in.
+function(debian_file name)
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/debian/${name}.in ${CMAKE_BINARY_DIR}/debian/${name} @ONLY)
+endfunction()
+
+file(READ LICENSE licence)
+string(REGEX MATCH "\nCopyright \\(c\\) ([^\n]*)\n" found "${licence}")
+set(copyright ${CMAKE_MATCH_1})
+string(REGEX REPLACE "^.*\n(Permission is hereby)" "\\1" licence "${licence}")
+string(STRIP "${licence}" licence)
+string(REPLACE "\n\n" "\n.\n" licence "${licence}")
+string(REPLACE "\n" "\n " licence " ${licence}")
+debian_file(copyright)
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+debian_file(changelog)
+execute_process(COMMAND gzip -9nkf ${CMAKE_BINARY_DIR}/debian/changelog COMMAND_ERROR_IS_FATAL ANY)
+install(FILES ${CMAKE_BINARY_DIR}/debian/copyright ${CMAKE_BINARY_DIR}/debian/changelog.gz
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian EXCLUDE_FROM_ALL)
+include(CPack)
