@@ -13,6 +13,8 @@ target_compile_options(farcell_settings INTERFACE -Wall -Wextra -Wpedantic -Wsha
 target_compile_definitions(farcell_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_XYZW_ONLY
                                                       FARCELL_VERSION="${PROJECT_VERSION}")
 target_link_libraries(farcell_settings INTERFACE Threads::Threads)
+# Messages name a source file from the root of the repository, wherever that lay: programs do not tell of the build.
+target_compile_options(farcell_settings INTERFACE -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 # Sanitizers make GCC see what is not there (-Wmaybe-uninitialized, -Wrestrict): there, warnings stay warnings.
 if(FARCELL_WERROR AND NOT FARCELL_SANITIZE)
   target_compile_options(farcell_settings INTERFACE -Werror)
@@ -36,12 +38,16 @@ function(farcell_library directory)
   endif()
 endfunction()
 
-# farcell_program(<directory> <name> [DEPS <libraries>...])
+# farcell_program(<directory> <name> [DEPS <libraries>...]). Those below tools/ are what farcell is for its users: the
+# global property FARCELL_PROGRAMS lists them, they are installed, and have manual pages and completion (cmake/reference.cmake).
 function(farcell_program directory name)
   cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${directory}/*.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE farcell_settings ${ARG_DEPS})
+  if(directory MATCHES "^tools/")
+    set_property(GLOBAL APPEND PROPERTY FARCELL_PROGRAMS ${name})
+  endif()
 endfunction()
 
 # farcell_embed(<library> HEADER <header> FUNCTION <name> FILES <paths from the repository root>...): a library of the

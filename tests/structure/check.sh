@@ -50,9 +50,10 @@ layers() {
       add("runtime/gl/", "runtime", 9)
       add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
       add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
-      # What several programs share (tools/cli, image, options, report) lies below the programs, which never see each other.
-      add("tools/cli/", "top", 20); add("tools/image/", "top", 20); add("tools/report/", "top", 20)
-      add("tools/options/", "top", 21)
+      # What several programs share (tools/reference < cli, image, report < options) lies below the programs, which never
+      # see each other.
+      add("tools/reference/", "top", 19); add("tools/cli/", "top", 20); add("tools/image/", "top", 20)
+      add("tools/report/", "top", 20); add("tools/options/", "top", 21)
       split("build info verify render evaluate generate extract view farcell", verbs, " ")
       for (i in verbs) add("tools/" verbs[i] "/", "top", 22)
       add("tests/", "top", 30)

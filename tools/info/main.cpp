@@ -40,10 +40,18 @@ Result<> run(std::span<const std::filesystem::path> paths, bool asJson) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Says what a pack or mesh files hold", "farcell-info");
+  CLI::App app(
+      "Says what a pack or mesh files hold.\n"
+      "A pack is known by its content, a mesh by its content or the ending of its name; a mesh is read to its end, so "
+      "that the counts are those a build would see.",
+      "farcell-info");
+  app.footer(
+      "Examples:\n"
+      "  farcell info city.far\n"
+      "  farcell info city.ply --json\n");
   std::vector<std::filesystem::path> paths;
   bool asJson = false;
   app.add_option("input", paths, "pack, or mesh files as for farcell build")->required();
-  app.add_flag("--json", asJson, "print JSON");
+  app.add_flag("--json", asJson, "print JSON on stdout");
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(paths, asJson); });
 }

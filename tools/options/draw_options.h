@@ -23,7 +23,7 @@ struct DrawOptions {
   std::string kind = "A";
   std::string triangleBudget = "500k";
   double texelPixels = kTexelPixels;
-  std::string samples = "4";
+  int samples = 4;
   std::string background;  // empty: the program's own
   std::string residentBytes = "1G";
 };

@@ -85,7 +85,15 @@ Result<> run(const RenderOptions& options) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws one picture of a pack.", "farcell-render");
+  CLI::App app(
+      "Draws one picture of a pack.\n"
+      "Near cells are drawn as triangles, within a budget, the rest as impostors. OpenGL 4.5 is needed, of a GPU or of "
+      "Mesa's software renderer; no window is.",
+      "farcell-render");
+  app.footer(
+      "Examples:\n"
+      "  farcell render city.far --size 1280x720 -o city.png\n"
+      "  farcell render city.far --camera cams.json --camera-name street --repeat 5 --json -\n");
   farcell::RenderOptions options;
   farcell::addRenderOptions(app, options);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options); });
