@@ -13,6 +13,7 @@
 #include "preprocess/build/ordered_output.h"
 #include "preprocess/partition/partition.h"
 #include "preprocess/read/open_mesh.h"
+#include "preprocess/texture/textures.h"
 
 namespace farcell {
 namespace {
@@ -57,9 +58,17 @@ Result<> writeCell(uint32_t cell, const CellPages& pages, PackWriter& writer, Di
   return {};
 }
 
+// One for each thread; nulls when the mesh has no textures.
+std::vector<std::unique_ptr<TextureSampler>> samplersOf(const Textures& textures, int threads) {
+  std::vector<std::unique_ptr<TextureSampler>> samplers(static_cast<size_t>(threads));
+  for (auto& sampler : samplers)
+    if (textures.count() > 0) sampler = textures.sampler();
+  return samplers;
+}
+
 // Bakes and writes every cell; shares the stage's wall time between bake and encode.
-Result<> bakeCells(const CellTree& tree, const Partition& partition, int threads, PackWriter& writer,
-                   Directory& directory, StageSeconds& seconds, Progress& progress) {
+Result<> bakeCells(const CellTree& tree, const Partition& partition, const Textures& textures, int threads,
+                   PackWriter& writer, Directory& directory, StageSeconds& seconds, Progress& progress) {
   FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
   const auto start = std::chrono::steady_clock::now();
   double bake = 0, encode = 0;
@@ -69,9 +78,11 @@ Result<> bakeCells(const CellTree& tree, const Partition& partition, int threads
     encode += pages.encodeSeconds;
     return writeCell(static_cast<uint32_t>(cell), pages, writer, directory);
   });
-  parallelFor(tree.cells.size(), threads, [&](size_t cell, int) {
+  const auto samplers = samplersOf(textures, threads);
+  parallelFor(tree.cells.size(), threads, [&](size_t cell, int worker) {
     if (output.failed()) return;
-    output.put(cell, bakeCell(static_cast<uint32_t>(cell), directory.model, tree, partition, viewpoints));
+    TextureSampler* sampler = samplers[static_cast<size_t>(worker)].get();
+    output.put(cell, bakeCell(static_cast<uint32_t>(cell), directory.model, tree, partition, viewpoints, sampler));
     progress.advance(static_cast<uint64_t>(viewpoints.count()));
   });
   FARCELL_TRY(output.result());
@@ -112,14 +123,15 @@ Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::file
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(pack));
   FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMesh(mesh));
 
+  const std::filesystem::path& scratch = options.scratchDirectory.empty() ? beside : options.scratchDirectory;
+
   BuildResult result;
   Directory& directory = result.directory;
   directory.sourceName = mesh.filename().string();
   FARCELL_ASSIGN(directory.sourceHash, hashFile(mesh));
-  FARCELL_ASSIGN(
-      const Partition partition,
-      partitionMesh(*reader, options.settings, options.scratchDirectory.empty() ? beside : options.scratchDirectory,
-                    threads, progress));
+  FARCELL_ASSIGN(const Textures textures, Textures::open(reader->textures(), scratch, threads, progress));
+  result.textures = {textures.count() - textures.leftOut().size(), textures.leftOut()};
+  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, options.settings, scratch, threads, progress));
   CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   directory.model = {partition.grid, partition.bounds, options.settings, reader->info().hasNormals,
                      reader->info().hasColours};
@@ -129,7 +141,7 @@ Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::file
   directory.cells = tree.cells;
   result.seconds.partition = partition.splitSeconds;
   result.seconds.read = secondsSince(start) - partition.splitSeconds;
-  FARCELL_TRY(bakeCells(tree, partition, threads, writer, directory, result.seconds, progress));
+  FARCELL_TRY(bakeCells(tree, partition, textures, threads, writer, directory, result.seconds, progress));
   progress.end();
   FARCELL_ASSIGN(result.packBytes, writer.finish(directory));
   result.seconds.total = secondsSince(start);

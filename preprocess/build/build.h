@@ -1,11 +1,12 @@
 // From a mesh file to a pack file.
 //
-// The life of a build: openMesh -> partitionMesh (leaves in scratch) -> cellTreeOf (every cell up to the root) ->
-// bakeCell for each cell, on all threads, in file order -> PackWriter, in the same order whatever finishes first.
-// Same input and settings, same bytes, at any thread count.
+// The life of a build: openMesh -> Textures::open -> partitionMesh (leaves in scratch) -> cellTreeOf (every cell up to
+// the root) -> bakeCell for each cell, on all threads, in file order -> PackWriter, in the same order whatever finishes
+// first. Same input and settings, same bytes, at any thread count.
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "cache/base/progress.h"
 #include "cache/base/result.h"
@@ -24,10 +25,17 @@ struct StageSeconds {
   double read = 0, partition = 0, lod = 0, bake = 0, encode = 0, total = 0;
 };
 
+// Images that the mesh names. One that cannot be read is no error: its triangles keep the colours they have without it.
+struct TextureReport {
+  uint64_t read = 0;
+  std::vector<Error> leftOut;  // why, one for each image
+};
+
 struct BuildResult {
   Directory directory;
   uint64_t packBytes = 0;
   StageSeconds seconds;
+  TextureReport textures;
 };
 
 Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::filesystem::path& pack,
