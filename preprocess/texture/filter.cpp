@@ -1,8 +1,8 @@
 #include "preprocess/texture/filter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <glm/common.hpp>
 
 #include "cache/base/check.h"
 
@@ -32,18 +32,25 @@ Ellipse ellipseOf(glm::vec2 alongX, glm::vec2 alongY, glm::vec2 size) {
   return ellipse;
 }
 
+int floorOf(float value) {
+  const int towardsZero = static_cast<int>(value);
+  return towardsZero - (static_cast<float>(towardsZero) > value ? 1 : 0);
+}
+
 // Into [-1, 2], where the wrap mode gives the same pixels.
 float reduced(float coordinate, TextureWrap wrap) {
   if (wrap == TextureWrap::clamp) return std::clamp(coordinate, -1.0f, 2.0f);
-  const float period = wrap == TextureWrap::repeat ? 1.0f : 2.0f;
-  return coordinate - period * std::floor(coordinate / period);
+  if (wrap == TextureWrap::repeat) return coordinate - static_cast<float>(floorOf(coordinate));
+  return coordinate - 2.0f * static_cast<float>(floorOf(0.5f * coordinate));
 }
 
+// index: of a pixel next to a reduced coordinate.
 uint32_t wrapped(int index, int size, TextureWrap wrap) {
   if (wrap == TextureWrap::clamp) return static_cast<uint32_t>(std::clamp(index, 0, size - 1));
-  const int period = wrap == TextureWrap::repeat ? size : 2 * size;
-  const int within = ((index % period) + period) % period;
-  return static_cast<uint32_t>(within < size ? within : period - 1 - within);
+  if (wrap == TextureWrap::repeat)
+    return static_cast<uint32_t>(index < 0 ? index + size : index < size ? index : index - size);
+  const int within = index < 0 ? -1 - index : index;
+  return static_cast<uint32_t>(within < size ? within : within < 2 * size ? 2 * size - 1 - within : within - 2 * size);
 }
 
 constexpr float kLargest = 1e6f;  // of coordinates and footprints: beyond, floats hold no fraction worth looking at
@@ -53,9 +60,31 @@ glm::vec2 sane(glm::vec2 value) {
   return glm::vec2(one(value.x), one(value.y));
 }
 
-glm::vec3 unpack(uint32_t pixel) {
-  return glm::vec3(static_cast<float>(pixel & 255), static_cast<float>(pixel >> 8 & 255),
-                   static_cast<float>(pixel >> 16 & 255));
+// Three channels side by side in a word, 21 bits for each, so that one product weighs all of them.
+constexpr int kLaneBits = 21;
+constexpr uint64_t kLanes = 1 | uint64_t{1} << kLaneBits | uint64_t{1} << 2 * kLaneBits;
+// Of a distance between two pixels; a weighted channel that is weighed once more keeps 13 bits to fit its lane.
+constexpr uint32_t kWhole = 256;
+constexpr int kDropped = 3;
+
+uint64_t spread(uint32_t pixel) {
+  return (pixel & 0xff) | uint64_t{pixel & 0xff00} << (kLaneBits - 8) |
+         uint64_t{pixel & 0xff0000} << (2 * kLaneBits - 16);
+}
+
+uint64_t between(uint32_t left, uint32_t right, uint32_t share) {
+  constexpr uint64_t kKept = kLanes * ((1 << (16 - kDropped)) - 1);
+  return ((spread(left) * (kWhole - share) + spread(right) * share) >> kDropped) & kKept;
+}
+
+// Display values, 1 is white.
+glm::vec3 unpacked(uint64_t lanes) {
+  constexpr float kUnit = static_cast<float>(1 << kDropped) / (255.0f * kWhole * kWhole);
+  constexpr uint64_t kLane = (uint64_t{1} << kLaneBits) - 1;
+  const auto channel = [&](int index) {
+    return static_cast<float>(static_cast<int>(lanes >> index * kLaneBits & kLane));
+  };
+  return glm::vec3(channel(0), channel(1), channel(2)) * kUnit;
 }
 
 }  // namespace
@@ -67,44 +96,45 @@ glm::vec3 PyramidSampler::sample(const TextureLookup& lookup) {
   const glm::vec2 size(static_cast<float>(pyramid.levels[0].width), static_cast<float>(pyramid.levels[0].height));
   const Ellipse ellipse = ellipseOf(sane(lookup.alongX), sane(lookup.alongY), size);
   const float texelEdge = std::max({1.0f, ellipse.minor, ellipse.major / kMaxProbes});
-  const int probes = std::clamp(static_cast<int>(std::ceil(ellipse.major / texelEdge)), 1, kMaxProbes);
+  const int probes = std::clamp(static_cast<int>(ellipse.major / texelEdge + 0.5f), 1, kMaxProbes);
   const glm::vec2 at = sane(lookup.at);
   glm::vec3 sum(0);
   for (int i = 0; i < probes; ++i) {
     const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(probes) - 0.5f;
     sum += probe(pyramid, at + along * ellipse.axis, texelEdge);
   }
-  return sum / (255.0f * static_cast<float>(probes));
+  return sum / static_cast<float>(probes);
 }
 
 // Between the two levels whose texels are next in size to `texelEdge` >= 1.
 glm::vec3 PyramidSampler::probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge) {
   const auto last = pyramid.levels.size() - 1;
-  const auto level = static_cast<size_t>(std::ilogb(texelEdge));
+  const size_t level = std::bit_width(static_cast<uint64_t>(texelEdge)) - 1;
   if (level >= last) return bilinear(pyramid, pyramid.levels[last], at);
   const glm::vec3 finer = bilinear(pyramid, pyramid.levels[level], at);
-  const float rest = std::ldexp(texelEdge, -static_cast<int>(level)) - 1.0f;
+  const float rest = texelEdge / static_cast<float>(uint64_t{1} << level) - 1.0f;
   if (rest == 0) return finer;
   return finer + rest * (bilinear(pyramid, pyramid.levels[level + 1], at) - finer);
 }
 
 glm::vec3 PyramidSampler::bilinear(const Pyramid& pyramid, const PyramidLevel& level, glm::vec2 at) {
-  // Rows run down, v runs up.
+  // Rows run down, v runs up. Half a pixel from the edge to its middle; then in parts of a pixel.
   const float x = reduced(at.x, pyramid.wrapU) * static_cast<float>(level.width) - 0.5f;
   const float y = reduced(1.0f - at.y, pyramid.wrapV) * static_cast<float>(level.height) - 0.5f;
-  const float left = std::floor(x), top = std::floor(y);
-  const auto ix = static_cast<int>(left), iy = static_cast<int>(top);
-  const uint32_t x0 = wrapped(ix, level.width, pyramid.wrapU), x1 = wrapped(ix + 1, level.width, pyramid.wrapU);
-  const uint32_t y0 = wrapped(iy, level.height, pyramid.wrapV), y1 = wrapped(iy + 1, level.height, pyramid.wrapV);
-  const glm::vec3 upper = glm::mix(pixel(pyramid, level, x0, y0), pixel(pyramid, level, x1, y0), x - left);
-  const glm::vec3 lower = glm::mix(pixel(pyramid, level, x0, y1), pixel(pyramid, level, x1, y1), x - left);
-  return glm::mix(upper, lower, y - top);
+  const int left = floorOf(x), top = floorOf(y);
+  const auto across = static_cast<uint32_t>((x - static_cast<float>(left)) * kWhole + 0.5f);
+  const auto down = static_cast<uint32_t>((y - static_cast<float>(top)) * kWhole + 0.5f);
+  const uint32_t x0 = wrapped(left, level.width, pyramid.wrapU), x1 = wrapped(left + 1, level.width, pyramid.wrapU);
+  const uint32_t y0 = wrapped(top, level.height, pyramid.wrapV), y1 = wrapped(top + 1, level.height, pyramid.wrapV);
+  const uint64_t upper = between(pixel(pyramid, level, x0, y0), pixel(pyramid, level, x1, y0), across);
+  const uint64_t lower = between(pixel(pyramid, level, x0, y1), pixel(pyramid, level, x1, y1), across);
+  return unpacked(upper * (kWhole - down) + lower * down);
 }
 
-glm::vec3 PyramidSampler::pixel(const Pyramid& pyramid, const PyramidLevel& level, uint32_t x, uint32_t y) {
+uint32_t PyramidSampler::pixel(const Pyramid& pyramid, const PyramidLevel& level, uint32_t x, uint32_t y) {
   constexpr uint32_t kEdge = kTileEdge;
-  const uint64_t tile = level.firstTile + y / kEdge * level.tilesAcross() + x / kEdge;
-  return unpack(tiles_.tile(pyramid.firstTile + tile)[y % kEdge * kEdge + x % kEdge]);
+  const uint64_t tile = pyramid.firstTile + level.firstTile + y / kEdge * level.tilesAcross + x / kEdge;
+  return tiles_.tile(tile)[y % kEdge * kEdge + x % kEdge];
 }
 
 }  // namespace farcell

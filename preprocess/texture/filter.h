@@ -10,7 +10,7 @@ namespace farcell {
 
 // Trilinear probes along the longer axis of the parallelogram's ellipse (McCormack, Perry, Farkas, Jouppi, Feline: Fast
 // Elliptical Lines for Anisotropic Texture Mapping, 1999), as many as its axes ask for, at most this:
-inline constexpr int kMaxProbes = 8;
+inline constexpr int kMaxProbes = 4;
 
 class PyramidSampler final : public TextureSampler {
  public:
@@ -23,7 +23,7 @@ class PyramidSampler final : public TextureSampler {
  private:
   glm::vec3 probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge);
   glm::vec3 bilinear(const Pyramid& pyramid, const PyramidLevel& level, glm::vec2 at);
-  glm::vec3 pixel(const Pyramid& pyramid, const PyramidLevel& level, uint32_t x, uint32_t y);
+  uint32_t pixel(const Pyramid& pyramid, const PyramidLevel& level, uint32_t x, uint32_t y);
 
   std::span<const Pyramid> pyramids_;
   TileCache tiles_;

@@ -18,6 +18,11 @@ void sumAcross(std::span<const uint32_t> row, size_t smallWidth, std::vector<uin
   }
 }
 
+PyramidLevel levelOf(int width, int height, uint64_t firstTile) {
+  const auto tiles = [](int edge) { return static_cast<uint32_t>((edge + kTileEdge - 1) / kTileEdge); };
+  return {width, height, tiles(width), tiles(height), firstTile};
+}
+
 std::vector<uint32_t> meanRow(const std::vector<uint64_t>& sums, uint64_t whole) {
   std::vector<uint32_t> row(sums.size() / 3);
   for (size_t i = 0; i < row.size(); ++i)
@@ -29,24 +34,23 @@ std::vector<uint32_t> meanRow(const std::vector<uint64_t>& sums, uint64_t whole)
 }  // namespace
 
 std::vector<PyramidLevel> pyramidLevels(int width, int height) {
-  std::vector<PyramidLevel> levels = {{width, height, 0}};
+  std::vector<PyramidLevel> levels = {levelOf(width, height, 0)};
   while (levels.back().width > 1 || levels.back().height > 1) {
     const PyramidLevel& last = levels.back();
-    levels.push_back({std::max(1, last.width / 2), std::max(1, last.height / 2),
-                      last.firstTile + last.tilesAcross() * last.tilesDown()});
+    levels.push_back(levelOf(std::max(1, last.width / 2), std::max(1, last.height / 2), tileCount(levels)));
   }
   return levels;
 }
 
 uint64_t tileCount(std::span<const PyramidLevel> levels) {
   const PyramidLevel& last = levels.back();
-  return last.firstTile + last.tilesAcross() * last.tilesDown();
+  return last.firstTile + uint64_t{last.tilesAcross} * last.tilesDown;
 }
 
 PyramidBuilder::PyramidBuilder(std::span<const PyramidLevel> levels, const Sink& sink)
     : levels_(levels), sink_(sink), rows_(levels.size()) {
   for (size_t i = 0; i < levels.size(); ++i) {
-    rows_[i].tiles.resize(levels[i].tilesAcross() * kTilePixels);
+    rows_[i].tiles.resize(levels[i].tilesAcross * kTilePixels);
     if (i + 1 < levels.size()) rows_[i].sums.resize(3 * static_cast<size_t>(levels[i + 1].width));
   }
 }
@@ -62,7 +66,7 @@ Result<> PyramidBuilder::addRow(size_t level, std::span<const uint32_t> row) {
   ++own.rows;
   if (own.rows % kTileEdge != 0 && own.rows != size.height) return {};
   const auto tileRow = static_cast<uint64_t>((own.rows - 1) / kTileEdge);
-  FARCELL_TRY(sink_(size.firstTile + tileRow * size.tilesAcross(), own.tiles));
+  FARCELL_TRY(sink_(size.firstTile + tileRow * size.tilesAcross, own.tiles));
   std::fill(own.tiles.begin(), own.tiles.end(), 0);
   return {};
 }

@@ -16,9 +16,8 @@ inline constexpr size_t kTilePixels = size_t{kTileEdge} * kTileEdge;
 // Rows of tiles from the top one down. Pixels beyond the level's edge are zero.
 struct PyramidLevel {
   int width = 0, height = 0;
+  uint32_t tilesAcross = 0, tilesDown = 0;
   uint64_t firstTile = 0;  // from the pyramid's first
-  uint64_t tilesAcross() const { return static_cast<uint64_t>((width + kTileEdge - 1) / kTileEdge); }
-  uint64_t tilesDown() const { return static_cast<uint64_t>((height + kTileEdge - 1) / kTileEdge); }
 };
 
 // From the image itself to a single pixel; each edge is half the one before, rounded down, at least 1.

@@ -36,7 +36,7 @@ Result<> checkReferenceSamples(int samples);
 // From the pack's own leaves, out of core. Ends with `cancelled` on Ctrl-C.
 Result<ReferenceImage> traceReference(const PackFile& pack, const Camera& camera, const ReferenceSettings& settings);
 
-// From the file a pack was built from; about 250 bytes of memory a triangle.
+// From the file a pack was built from; about 250 bytes of memory a triangle and 4 a pixel of its textures.
 class MeshReference {
  public:
   // invalidArgument when the file's hash is not the pack's sourceHash. `progress` is told of triangles read.
