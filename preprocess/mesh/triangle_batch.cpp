@@ -44,14 +44,16 @@ bool TriangleBatch::isUsable(const std::array<glm::dvec3, 3>& positions, bool al
   return true;
 }
 
-void TriangleBatch::add(const Indices& positions, const Indices& normals, uint32_t faceColour) {
+void TriangleBatch::add(const Indices& positions, const Indices& normals, const FaceLook& look) {
   InputTriangle& triangle = triangles_[used_];
   if (failed() || !gather(positions, triangle.positions)) return;
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t colour = vertices_.colours.empty() ? kNoColour : vertices_.colours[positions[i]];
-    triangle.colours[i] = colour == kNoColour ? faceColour : colour;
+    triangle.colours[i] = colour == kNoColour ? look.colour : colour;
     triangle.normals[i] = normals[i] < vertices_.normals.size() ? vertices_.normals[normals[i]] : glm::vec3(0);
   }
+  triangle.texture = look.texture;
+  if (look.texture != kNoTexture) triangle.textureCoordinates = look.textureCoordinates;
   accept();
 }
 

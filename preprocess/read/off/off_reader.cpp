@@ -64,7 +64,7 @@ void addFace(const OffFace& face, uint32_t colour, TriangleBatch& batch) {
   const auto corner = [&](size_t i) { return static_cast<uint64_t>(face.corners[i]); };
   for (size_t i = 2; i < face.corners.size(); ++i) {
     const TriangleBatch::Indices indices = {corner(0), corner(i - 1), corner(i)};
-    batch.add(indices, indices, colour);
+    batch.add(indices, indices, {colour});
   }
 }
 

@@ -67,11 +67,16 @@ void appendTriangle(LocalTriangles& local, const InputTriangle& triangle, const 
     if (info.hasNormals) local.normals.push_back(cornerNormal(triangle, corner));
   }
   local.triangles.emplace_back(first, first + 1, first + 2);
+  if (local.textures.empty()) return;
+  local.textureOf.push_back(triangle.texture);
+  local.coordinates.insert(local.coordinates.end(), triangle.textureCoordinates.begin(),
+                           triangle.textureCoordinates.end());
 }
 
 Result<LocalTriangles> readTriangles(MeshReader& mesh, const Directory& directory,
                                      const std::function<void(uint64_t)>& progress) {
   LocalTriangles local = emptyModel(directory.model);
+  FARCELL_ASSIGN(local.textures, WholeTextures::read(reader->textures()));
   const auto sink = [&](std::span<const InputTriangle> batch) -> Result<> {
     FARCELL_TRY(checkInterrupt());
     if (local.triangles.size() + batch.size() > kMaxTriangles)

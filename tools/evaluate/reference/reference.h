@@ -37,7 +37,7 @@ Result<> checkReferenceSamples(int samples);
 // From the pack's own leaves, out of core. Ends with `cancelled` on Ctrl-C.
 Result<ReferenceImage> traceReference(const PackFile& pack, const Camera& camera, const ReferenceSettings& settings);
 
-// From the files a pack was built from; about 250 bytes of memory a triangle.
+// From the files a pack was built from; about 250 bytes of memory a triangle and 4 a pixel of their textures.
 class MeshReference {
  public:
   // The files as they were given to the build; invalidArgument when their hash is not the pack's sourceHash. `progress`
