@@ -43,3 +43,18 @@ function(farcell_program directory name)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE farcell_settings ${ARG_DEPS})
 endfunction()
+
+# farcell_embedded_shaders(<target> <namespace::function> <files, from the repository root>...): a library of one function
+# that gives the text of a shader file by its path (shaders/embedded.h).
+function(farcell_embedded_shaders target function)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
+  add_custom_command(
+    OUTPUT ${source}
+    COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -DOUTPUT=${source} -DFUNCTION=${function} "-DFILES=${ARGN}"
+            -P ${CMAKE_SOURCE_DIR}/shaders/embed.cmake
+    DEPENDS ${paths} ${CMAKE_SOURCE_DIR}/shaders/embed.cmake
+    VERBATIM)
+  add_library(${target} STATIC ${source})
+  target_link_libraries(${target} PUBLIC farcell_settings)
+endfunction()

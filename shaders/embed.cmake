@@ -1,4 +1,4 @@
-# cmake -DROOT=<repository> -DOUTPUT=<file.cpp> -DFILES=<path;path;...> -P embed.cmake
+# cmake -DROOT=<repository> -DOUTPUT=<file.cpp> -DFUNCTION=<namespace::name> -DFILES=<path;path;...> -P embed.cmake
 # Writes C++ that holds the text of each file; paths are relative to ROOT.
 set(entries "")
 foreach(path ${FILES})
@@ -9,21 +9,23 @@ foreach(path ${FILES})
   endif()
   string(APPEND entries "    {\"${path}\", R\"~glsl~(${text})~glsl~\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"shaders/embedded.h\"
-
+string(REGEX MATCH "^(.+)::([A-Za-z]+)$" matched ${FUNCTION})
+file(WRITE ${OUTPUT} "#include <string_view>
 #include <utility>
 
-namespace farcell {
+namespace ${CMAKE_MATCH_1} {
 namespace {
 constexpr std::pair<std::string_view, std::string_view> kFiles[] = {
 ${entries}};
 }  // namespace
 
-std::string_view embeddedShader(std::string_view path) {
+std::string_view ${CMAKE_MATCH_2}(std::string_view path);
+
+std::string_view ${CMAKE_MATCH_2}(std::string_view path) {
   for (const auto& [name, text] : kFiles)
     if (name == path) return text;
   return {};
 }
 
-}  // namespace farcell
+}  // namespace ${CMAKE_MATCH_1}
 ")
