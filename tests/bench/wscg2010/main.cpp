@@ -1,10 +1,44 @@
+// bench_wscg2010: the experiment of the 2010 paper on given models; see measure/experiment.h.
+#include <chrono>
 #include <cstdio>
-#include "runtime/gl/context.h"
-#include "tests/bench/wscg2010/measure/errors.h"
-using namespace farcell; using namespace farcell::wscg;
-Result<> go(const char*p){ FARCELL_ASSIGN(const Scene s, loadScene(p, UpAxis::z)); FARCELL_ASSIGN(GlContext c, GlContext::createHeadless());
- FARCELL_ASSIGN(const FullGeometry f, FullGeometry::create(s)); ErrorSettings e; FARCELL_ASSIGN(const ErrorResults r, measureErrors(s,f,e));
- for(auto&x:r.cells)printf("%d %zu\n",x.depth,x.occupied);
- std::string last; for(auto&x:r.rows){ if(x.variant==last)continue; last=x.variant; printf("%-34s",last.c_str()); for(double d:e.distances)printf(" %6.2f/%6.2f/%.2f%%",meanOver(r,s.name,last,d,toSingle),meanOver(r,s.name,last,d,toTruth),100*meanOver(r,s.name,last,d,holes)); printf("  st1 %6.2f\n",steepOver(r,s.name,last,1,toSingle));}
- return {};}
-int main(int, char**a) { auto r=go(a[1]); if(!r)puts(r.error().message.c_str()); }
+
+#include "tests/bench/wscg2010/measure/report.h"
+#include "tools/cli/cli.h"
+
+namespace farcell::wscg {
+namespace {
+
+struct Options {
+  std::vector<std::filesystem::path> models;
+  std::filesystem::path output;
+  std::string up = "z";
+  bool quick = false;
+};
+
+Result<> run(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  ExperimentSettings settings = options.quick ? quickSettings() : ExperimentSettings{};
+  settings.models = options.models;
+  settings.output = options.output;
+  settings.up = options.up == "x" ? UpAxis::x : options.up == "y" ? UpAxis::y : UpAxis::z;
+  FARCELL_ASSIGN(const ExperimentResults results, runExperiment(settings));
+  RunFacts facts = machineFacts();
+  facts.minutes = std::chrono::duration<double, std::ratio<60>>(std::chrono::steady_clock::now() - start).count();
+  facts.quick = options.quick;
+  FARCELL_TRY(writeReport(results, settings, facts));
+  std::printf("%s\n", (options.output / "results.md").c_str());
+  return {};
+}
+
+}  // namespace
+}  // namespace farcell::wscg
+
+int main(int argc, char** argv) {
+  CLI::App app("The experiment of the 2010 paper: errors, frame times, bytes, pictures", "bench_wscg2010");
+  farcell::wscg::Options options;
+  app.add_option("--model", options.models, "A mesh of at most 8 M triangles; may be given several times")->required();
+  app.add_option("-o,--output", options.output, "Directory for results.md, CSV files and pictures")->required();
+  app.add_option("--up", options.up, "The models' up axis")->capture_default_str()->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_flag("--quick", options.quick, "Small pictures, few cameras: rough figures in seconds");
+  return farcell::runProgram(app, argc, argv, [&] { return farcell::wscg::run(options); });
+}

@@ -110,6 +110,7 @@ double steepOver(const ErrorResults& results, const std::string& scene, const st
 double toSingle(const ErrorRow& row) { return row.toSingle.paperError; }
 double toTruth(const ErrorRow& row) { return row.toTruth.paperError; }
 double holes(const ErrorRow& row) { return row.toSingle.holeRate; }
+double leaks(const ErrorRow& row) { return row.toSingle.leakRate; }
 
 Table errorCsv(const ErrorResults& results) {
   Table table{{"scene", "variant", "camera", "distanceDiameters", "billboards", "paperErrorTo1Sample",

@@ -68,6 +68,7 @@ double steepOver(const ErrorResults& results, const std::string& scene, const st
 double toSingle(const ErrorRow& row);  // paperError
 double toTruth(const ErrorRow& row);
 double holes(const ErrorRow& row);  // holeRate against the triangles at one sample
+double leaks(const ErrorRow& row);  // leakRate against them
 
 Table errorCsv(const ErrorResults& results);
 
