@@ -9,14 +9,20 @@ packages=(
   g++ cmake ninja-build pkg-config
   # cache: messages, results, checksums, coding; vectors of all layers
   libfmt-dev libexpected-dev libxxhash-dev libglm-dev libdeflate-dev zlib1g-dev libmeshoptimizer-dev
-  # preprocess: SIMD
-  libhwy-dev
+  # preprocess: SIMD; glTF and what it may be compressed by
+  libhwy-dev libtinygltf-dev libdraco-dev
   # runtime: OpenGL by EGL without a window, and Mesa's software renderer where there is no GPU
   libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
+  # view: the window
+  libglfw3-dev
   # tools: command line, JSON, pictures, the ray tracer of the reference
-  libcli11-dev nlohmann-json3-dev libopenimageio-dev libembree-dev
+  libcli11-dev nlohmann-json3-dev libpng-dev libopenimageio-dev libembree-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev
+  # tests: the browser that opens a report
+  chromium
+  # to test the window: a display without a screen, and a hand for its keys
+  xvfb xdotool
   # to unpack models that come compressed
   xz-utils
 )

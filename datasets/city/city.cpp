@@ -1,7 +1,5 @@
 #include "datasets/city/city.h"
 
-#include <bit>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -10,17 +8,15 @@
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
 #include "datasets/city/block.h"
+#include "datasets/ply/ply_output.h"
 
 namespace farcell {
 namespace {
 
 using city::Mesh;
-static_assert(std::endian::native == std::endian::little);
 
 constexpr uint64_t kUnbounded = std::numeric_limits<uint64_t>::max();
 constexpr size_t kBatchBlocks = 8;  // generated together; bounds the memory
-constexpr size_t kVertexBytes = 15;
-constexpr size_t kFaceBytes = 13;
 
 // Which blocks make the city: the first ones of the spiral, the last one only in part.
 struct Plan {
@@ -56,13 +52,8 @@ void addCounts(CityCounts& counts, const Mesh& mesh) {
   ++counts.blocks;
 }
 
-std::string plyHeader(const CitySettings& settings, const CityCounts& counts) {
-  constexpr uint64_t kMaxInt = std::numeric_limits<int32_t>::max();
-  return fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment farcell city, seed {}\nelement vertex {}\nproperty float x\n"
-      "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-      settings.seed, counts.vertices, counts.triangles, counts.vertices > kMaxInt ? "uint" : "int");
+PlyLayout layoutOf(const CitySettings& settings, const CityCounts& counts) {
+  return {fmt::format("farcell city, seed {}", settings.seed), counts.vertices, counts.triangles};
 }
 
 Result<Plan> planCity(const CitySettings& settings, Progress& progress) {
@@ -82,12 +73,9 @@ Result<Plan> planCity(const CitySettings& settings, Progress& progress) {
   Mesh last;
   city::buildBlock(last, settings.seed, city::blockAt(plan.wholeBlocks), plan.lastBlockTriangles);
   addCounts(plan.counts, last);
-  constexpr uint64_t kMaxVertices = std::numeric_limits<uint32_t>::max();
-  if (plan.counts.vertices > kMaxVertices)
-    return fail(ErrorKind::unsupported, "a city of {} triangles has {} vertices; a PLY file can name at most {}",
-                plan.counts.triangles, plan.counts.vertices, kMaxVertices);
-  plan.counts.bytes = plyHeader(settings, plan.counts).size() + plan.counts.vertices * kVertexBytes +
-                      plan.counts.triangles * kFaceBytes;
+  const PlyLayout layout = layoutOf(settings, plan.counts);
+  FARCELL_TRY(checkPlyLayout(layout));
+  plan.counts.bytes = plyBytes(layout);
   return plan;
 }
 
@@ -102,25 +90,12 @@ Result<> forEachPlanned(const CitySettings& settings, const Plan& plan,
   return take(last);
 }
 
-void serialiseVertices(const Mesh& mesh, std::vector<std::byte>& out) {
-  out.resize(mesh.vertices().size() * kVertexBytes);
-  std::byte* at = out.data();
-  for (const city::Vertex& vertex : mesh.vertices()) {
-    std::memcpy(at, &vertex.x, 12);
-    std::memcpy(at + 12, &vertex.colour, 3);
-    at += kVertexBytes;
-  }
-}
-
-void serialiseFaces(const Mesh& mesh, uint64_t firstVertex, std::vector<std::byte>& out) {
-  out.resize(mesh.triangles().size() * kFaceBytes);
-  std::byte* at = out.data();
-  for (std::array<uint32_t, 3> triangle : mesh.triangles()) {
-    for (uint32_t& index : triangle) index += static_cast<uint32_t>(firstVertex);
-    *at = std::byte{3};
-    std::memcpy(at + 1, triangle.data(), 12);
-    at += kFaceBytes;
-  }
+void putVertices(const Mesh& mesh, std::vector<PlyVertex>& vertices, std::vector<std::byte>& out) {
+  vertices.clear();
+  for (const city::Vertex& vertex : mesh.vertices())
+    vertices.push_back(
+        {glm::dvec3(vertex.x, vertex.y, vertex.z), {vertex.colour.red, vertex.colour.green, vertex.colour.blue}});
+  putPlyVertices(vertices, false, out);
 }
 
 }  // namespace
@@ -134,19 +109,22 @@ Result<CityCounts> countCity(const CitySettings& settings, Progress& progress) {
 Result<CityCounts> writeCity(const CitySettings& settings, const std::filesystem::path& path, Progress& progress) {
   FARCELL_ASSIGN(OutputFile file, OutputFile::create(path));
   FARCELL_ASSIGN(const Plan plan, planCity(settings, progress));
-  const std::string header = plyHeader(settings, plan.counts);
+  const std::string header = plyHeader(layoutOf(settings, plan.counts));
   FARCELL_TRY(file.append(std::as_bytes(std::span(header))));
+  std::vector<PlyVertex> vertices;
   std::vector<std::byte> bytes;
   progress.begin("vertices", plan.counts.vertices, "vertices");
   FARCELL_TRY(forEachPlanned(settings, plan, [&](const Mesh& mesh) {
-    serialiseVertices(mesh, bytes);
+    bytes.clear();
+    putVertices(mesh, vertices, bytes);
     progress.advance(mesh.vertices().size());
     return file.append(bytes);
   }));
   progress.begin("faces", plan.counts.triangles, "triangles");
   uint64_t firstVertex = 0;
   FARCELL_TRY(forEachPlanned(settings, plan, [&](const Mesh& mesh) {
-    serialiseFaces(mesh, firstVertex, bytes);
+    bytes.clear();
+    putPlyFaces(mesh.triangles(), firstVertex, bytes);
     firstVertex += mesh.vertices().size();
     progress.advance(mesh.triangles().size());
     return file.append(bytes);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "datasets/city/mesh.h"
-#include "datasets/city/random.h"
+#include "datasets/random/random.h"
 
 namespace farcell::city {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "datasets/city/random.h"
+#include "datasets/random/random.h"
 
 namespace farcell::city {
 namespace {

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "cache/base/file.h"
-#include "cache/base/hash.h"
-#include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
 #include "cache/pack/pack_file.h"
 #include "preprocess/build/cell_bake.h"
 #include "preprocess/build/ordered_output.h"
+#include "preprocess/mesh/source_hash.h"
 #include "preprocess/partition/partition.h"
 #include "preprocess/read/open_mesh.h"
 #include "preprocess/texture/textures.h"
@@ -22,18 +20,6 @@ constexpr size_t kCellsAhead = 256;  // finished cells that may wait for a slowe
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Result<uint64_t> hashFile(const std::filesystem::path& path) {
-  FARCELL_ASSIGN(const InputFile file, InputFile::open(path));
-  Hasher hasher;
-  std::vector<std::byte> buffer(size_t{1} << 20);
-  for (uint64_t offset = 0; offset < file.sizeBytes(); offset += buffer.size()) {
-    const auto part = std::span(buffer).first(std::min<uint64_t>(buffer.size(), file.sizeBytes() - offset));
-    FARCELL_TRY(file.readAt(offset, part));
-    hasher.add(part);
-  }
-  return hasher.value();
 }
 
 // Adds a finished cell to the pack and to the report.
@@ -114,27 +100,29 @@ Result<> checkSettings(const BuildSettings& settings) {
   return {};
 }
 
-Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::filesystem::path& pack,
+Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, const std::filesystem::path& pack,
                               const BuildOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   FARCELL_TRY(checkSettings(options.settings));
   const int threads = threadCount(options.threads);
   const std::filesystem::path beside = pack.has_parent_path() ? pack.parent_path() : std::filesystem::path(".");
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(pack));
-  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMesh(mesh));
+  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMeshes(meshes));
+  BuildSettings settings = options.settings;
+  if (options.upOfModel) settings.up = reader->info().up;
+  if (options.unitOfModel) settings.metresPerUnit = reader->info().metresPerUnit;
 
   const std::filesystem::path& scratch = options.scratchDirectory.empty() ? beside : options.scratchDirectory;
 
   BuildResult result;
   Directory& directory = result.directory;
-  directory.sourceName = mesh.filename().string();
-  FARCELL_ASSIGN(directory.sourceHash, hashFile(mesh));
+  directory.sourceName = meshes[0].filename().string();
+  FARCELL_ASSIGN(directory.sourceHash, sourceHash(*reader));
   FARCELL_ASSIGN(const Textures textures, Textures::open(reader->textures(), scratch, threads, progress));
   result.textures = {textures.count() - textures.leftOut().size(), textures.leftOut()};
-  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, options.settings, scratch, threads, progress));
+  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, settings, scratch, threads, progress));
   CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
-  directory.model = {partition.grid, partition.bounds, options.settings, reader->info().hasNormals,
-                     reader->info().hasColours};
+  directory.model = {partition.grid, partition.bounds, settings, reader->info().hasNormals, reader->info().hasColours};
   directory.report.inputTriangles = partition.counts.accepted;
   directory.report.inputVertices = reader->info().vertices;
   directory.report.skipped = partition.counts.skipped;

@@ -23,17 +23,24 @@ class TriangleBatch {
 
   // Both must outlive the batch.
   TriangleBatch(const Vertices& vertices, const MeshReader::Sink& sink);
+  // For triangles that bring their own corners.
+  explicit TriangleBatch(const MeshReader::Sink& sink);
 
   // Normals are those of the same indices. After failed() triangles are ignored.
   void add(const Indices& positions) { add(positions, positions, FaceLook{defaultColour_}); }
   // Normal indices out of range give a zero normal.
   void add(const Indices& positions, const Indices& normals, const FaceLook& look);
+  // Corners and looks as they are; checks the positions only.
+  void add(const InputTriangle& triangle);
+  void skipBadIndex() { ++badIndex_; }  // a triangle whose vertices its reader did not find
   bool failed() const { return failure_.has_value(); }
   // Hands on what is left. The counts, or the error of the sink.
   Result<MeshCounts> finish();
 
  private:
   bool gather(const Indices& positions, std::array<glm::dvec3, 3>& out);
+  bool isUsable(const std::array<glm::dvec3, 3>& positions, bool allFinite);
+  void accept();
   void flush();
 
   const Vertices& vertices_;

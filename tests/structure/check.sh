@@ -13,7 +13,7 @@ sources() {
 }
 texts() {
   find . -path ./.git -prune -o -path './build*' -prune -o -type f \
-    \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.txt' -o -name '*.cmake' -o -name '*.json' -o -name run \) -print |
+    \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.txt' -o -name '*.cmake' -o -name '*.html' -o -name '*.css' -o -name '*.js' -o -name '*.json' -o -name run \) -print |
     cut -c3- | sort
 }
 
@@ -32,16 +32,17 @@ layers() {
       if (from == to) return 1
       if (rank[to] >= rank[from]) return 0
       # base: for all. datasets sees cache/base alone. preprocess and runtime never see each other.
-      if (chainOf[from] == "datasets") return to == "cache/base/"
+      if (chainOf[from] == "datasets") return to == "cache/base/" || chainOf[to] == "datasets"
       if (chainOf[to] == "base" || chainOf[from] == "top") return 1
       return chainOf[from] == chainOf[to]
     }
     BEGIN {
       add("shaders/", "base", 0); add("cache/base/", "base", 1); add("cache/schema/", "base", 2)
       add("cache/pack/", "base", 3); add("cache/store/", "base", 4)
-      add("datasets/", "datasets", 5)
+      # Models side by side, over what they share.
+      add("datasets/ply/", "datasets", 5); add("datasets/random/", "datasets", 5); add("datasets/", "datasets", 6)
       add("preprocess/mesh/", "preprocess", 7); add("preprocess/texture/", "preprocess", 8)
-      split("ply obj stl off gltf", formats, " ")
+      split("ply obj stl off gltf scene", formats, " ")
       for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
@@ -49,10 +50,12 @@ layers() {
       add("runtime/gl/", "runtime", 9)
       add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
       add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
-      # What several programs share (tools/cli, image, report) lies below the programs, which never see each other.
-      add("tools/cli/", "top", 20); add("tools/image/", "top", 20); add("tools/report/", "top", 20)
+      # What several programs share (tools/reference < cli, image, report < options) lies below the programs, which never
+      # see each other.
+      add("tools/reference/", "top", 19); add("tools/cli/", "top", 20); add("tools/image/", "top", 20)
+      add("tools/report/", "top", 20); add("tools/options/", "top", 21)
       split("build info verify render evaluate generate extract view farcell", verbs, " ")
-      for (i in verbs) add("tools/" verbs[i] "/", "top", 21)
+      for (i in verbs) add("tools/" verbs[i] "/", "top", 22)
       add("tests/", "top", 30)
     }
     FNR == 1 {
@@ -78,16 +81,18 @@ heavy() {
 }
 dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
-  heavy OpenImageIO '[<"]OpenImageIO/' '^(tools/image|preprocess/texture|tests/support)/'
+  heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
   heavy tinygltf '[<"]tiny_gltf' '^(preprocess/read/gltf|tests)/'
   heavy draco '[<"]draco/' '^(preprocess/read/gltf|tests)/'
-  heavy GLFW '[<"]GLFW/' '^runtime/gl/'
+  heavy GLFW '[<"]GLFW/' '^runtime/gl/window/'
+  heavy libpng '[<"]png\.h' '^tools/image/png\.cpp'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
+  heavy nlohmann '[<"]nlohmann/' '^(preprocess/read/(scene|gltf)|runtime/camera|tools|tests)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'
   heavy GoogleTest '[<"](gtest|gmock)/' '^tests/'
   heavy 'Google Benchmark' '[<"]benchmark/' '^tests/bench/'

@@ -1,50 +1,27 @@
 // farcell-generate: models to try the other programs on.
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
-#include "datasets/city/city.h"
 #include "tools/cli/cli.h"
+#include "tools/generate/verbs.h"
 
 namespace farcell {
 namespace {
 
-struct CityOptions {
-  std::string triangles = "5M";
-  uint64_t seed = 1;
-  int threads = 0;
-  std::string output;
-  bool json = false;
-};
-
-CLI::App* addCityVerb(CLI::App& app, CityOptions& options) {
-  CLI::App* city = app.add_subcommand("city", "A procedural city, as binary PLY");
-  city->add_option("--triangles", options.triangles, "How many, e.g. 500k, 5M, 1G; at least 2k; within 5 % from 10k on")
-      ->capture_default_str();
-  city->add_option("--seed", options.seed, "Another number, another city")->capture_default_str();
-  city->add_option("--threads", options.threads, "Threads; 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
-  city->add_option("-o,--output", options.output, "The file to write")->required();
-  city->add_flag("--json", options.json, "Counts on stdout as JSON");
-  return city;
-}
-
-Result<> generateCity(const CityOptions& options) {
-  CitySettings settings;
-  FARCELL_ASSIGN(settings.triangles, parseCount(options.triangles));
-  settings.seed = options.seed;
-  settings.threads = options.threads;
-  Progress progress(true);
+template <class Options>
+Result<> generate(const Options& options, Result<nlohmann::ordered_json> (*make)(const Options&)) {
   const auto start = std::chrono::steady_clock::now();
-  FARCELL_ASSIGN(const CityCounts counts, writeCity(settings, options.output, progress));
+  FARCELL_ASSIGN(nlohmann::ordered_json counts, make(options));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {
-    const nlohmann::ordered_json report = {
-        {"triangles", counts.triangles}, {"vertices", counts.vertices}, {"bytes", counts.bytes}, {"seconds", seconds}};
-    std::printf("%s\n", report.dump(2).c_str());
+    counts["seconds"] = seconds;
+    std::printf("%s\n", counts.dump(2).c_str());
   } else {
-    std::printf("%s", fmt::format("{}: {} triangles, {} vertices, {} bytes, {:.1f} s\n", options.output,
-                                  counts.triangles, counts.vertices, counts.bytes, seconds)
-                          .c_str());
+    std::printf("%s",
+                fmt::format("{}: {} triangles, {} vertices, {} bytes, {:.1f} s\n", options.output,
+                            counts["triangles"].template get<uint64_t>(), counts["vertices"].template get<uint64_t>(),
+                            counts["bytes"].template get<uint64_t>(), seconds)
+                    .c_str());
   }
   return {};
 }
@@ -53,12 +30,17 @@ Result<> generateCity(const CityOptions& options) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes models to try", "farcell-generate");
-  farcell::CityOptions cityOptions;
+  CLI::App app(
+      "Makes models to try the other programs on.\n"
+      "The same options give the same bytes, with any number of threads.",
+      "farcell-generate");
+  farcell::GenerateOptions cityOptions;
+  farcell::StatueOptions statueOptions;
   const CLI::App* city = farcell::addCityVerb(app, cityOptions);
+  farcell::addStatueVerb(app, statueOptions);
   app.require_subcommand(1);
-  return farcell::runProgram(app, argc, argv, [&]() -> farcell::Result<> {
-    if (city->parsed()) return farcell::generateCity(cityOptions);
-    return {};
+  return farcell::runProgram(app, argc, argv, [&] {
+    return city->parsed() ? farcell::generate(cityOptions, farcell::generateCity)
+                          : farcell::generate(statueOptions, farcell::generateStatue);
   });
 }

@@ -122,6 +122,8 @@ class ObjReader final : public MeshReader {
         vertices_(std::move(contents.vertices)),
         materials_(std::move(materials)),
         looks_(materials_, contents.usedMaterials) {
+    info_.format = "OBJ";
+    info_.up = UpAxis::y;
     info_.vertices = vertices_.count();
     info_.declaredTriangles = contents.triangles;
     info_.hasColours = !vertices_.colours.empty() || !looks_.empty();

@@ -54,7 +54,7 @@ class BuildPack : public testing::Test {
   Result<BuildResult> build(const std::filesystem::path& mesh, const std::string& pack,
                             BuildOptions options = {}) const {
     Progress silent(false);
-    return buildPack(mesh, directory_ / pack, options, silent);
+    return buildPack({&mesh, 1}, directory_ / pack, options, silent);
   }
   std::string bytesOf(const std::string& name) const {
     return readTextFile(directory_ / name, uint64_t{1} << 30).value();
