@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <glm/vec2.hpp>
 
 #include "cache/base/file.h"
 #include "cache/pack/pack_file.h"
@@ -177,9 +178,10 @@ TEST_F(TexturedBuild, WithoutItsImageAModelKeepsItsColoursAndTheReportSaysSo) {
   EXPECT_EQ(broken.textures.read, 0u);
   for (const char* name : {"missing.far", "broken.far"}) {
     const PackFile pack = open(name);
-    for (const CellRecord& cell : pack.directory().cells)
-      if (cell.geometryPage != kNone)
-        for (const uint32_t colour : pack.readGeometry(cell.geometryPage).value().colours) EXPECT_EQ(colour, 0x0033ffu);
+    for (const CellRecord& cell : pack.directory().cells) {
+      if (cell.geometryPage == kNone) continue;
+      for (const uint32_t colour : pack.readGeometry(cell.geometryPage).value().colours) EXPECT_EQ(colour, 0x0033ffu);
+    }
   }
 }
 
