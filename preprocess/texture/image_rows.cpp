@@ -17,8 +17,10 @@ struct Module {
 // Stays loaded until the process ends.
 Module loadModule() {
   std::error_code code;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
-  void* library = dlopen((program.parent_path() / kModuleName).c_str(), RTLD_NOW | RTLD_LOCAL);
+  const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
+  const std::filesystem::path beside = programs / kModuleName, installed = programs / FARCELL_MODULES / kModuleName;
+  const auto& path = std::filesystem::exists(beside, code) ? beside : installed;
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   Module module;
   if (library != nullptr) module.decode = reinterpret_cast<DecodeFunction*>(dlsym(library, kDecodeSymbol));
   if (module.decode == nullptr) module.failure = dlerror();

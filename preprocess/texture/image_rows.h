@@ -1,6 +1,5 @@
 // An image as rows of pixels, from a library that is loaded when the first image is: OpenImageIO takes a quarter of a
-// second and 120 MB to start, and most models have no textures. So what calls it is a module of its own (decoder/),
-// which lies beside the programs.
+// second and 120 MB to start, and most models have no textures. So what calls it is a module of its own (decoder/).
 #pragma once
 
 #include <cstdint>

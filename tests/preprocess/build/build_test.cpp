@@ -151,8 +151,8 @@ TEST_F(BuildPack, StreamedLeavesBakeTheSameViewsAsGatheredOnes) {
   const CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   const Model model{partition.grid, partition.bounds, options.settings, false, false};
   const Viewpoints viewpoints = Viewpoints::create(42).value();
-  const CellPages gathered = bakeCell(0, model, tree, partition, viewpoints).value();
-  const CellPages streamed = bakeCell(0, model, tree, partition, viewpoints, 0).value();
+  const CellPages gathered = bakeCell(0, model, tree, partition, viewpoints, nullptr).value();
+  const CellPages streamed = bakeCell(0, model, tree, partition, viewpoints, nullptr, 0).value();
   ASSERT_EQ(gathered.pages.size(), streamed.pages.size());
   for (size_t i = 0; i < gathered.pages.size(); ++i) EXPECT_TRUE(gathered.pages[i].bytes == streamed.pages[i].bytes);
 }

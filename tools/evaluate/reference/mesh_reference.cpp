@@ -76,7 +76,7 @@ void appendTriangle(LocalTriangles& local, const InputTriangle& triangle, const 
 Result<LocalTriangles> readTriangles(MeshReader& mesh, const Directory& directory,
                                      const std::function<void(uint64_t)>& progress) {
   LocalTriangles local = emptyModel(directory.model);
-  FARCELL_ASSIGN(local.textures, WholeTextures::read(reader->textures()));
+  FARCELL_ASSIGN(local.textures, WholeTextures::read(mesh.textures()));
   const auto sink = [&](std::span<const InputTriangle> batch) -> Result<> {
     FARCELL_TRY(checkInterrupt());
     if (local.triangles.size() + batch.size() > kMaxTriangles)
