@@ -29,38 +29,30 @@ glm::dvec3 unitOrZero(glm::dvec3 v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
-double angleBetween(glm::dvec3 a, glm::dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
-
 void scaleToUnit(BaseMesh& mesh, glm::dvec3 min, glm::dvec3 max) {
   mesh.middle = min * 0.5 + max * 0.5;
   mesh.diagonal = glm::length(max - min);
   for (glm::dvec3& position : mesh.positions) position = (position - mesh.middle) / mesh.diagonal;
 }
 
-// Scaled first: the product of two edges of a model in micrometres would underflow.
-glm::dvec3 faceNormal(const BaseMesh& mesh, const BaseMesh::Triangle& triangle) {
+// Its length is twice the triangle's area. REQUIRES: scaled to unit, or those of a model in micrometres would
+// underflow.
+glm::dvec3 areaNormal(const BaseMesh& mesh, const BaseMesh::Triangle& triangle) {
   const glm::dvec3 a = mesh.positions[triangle[0]];
-  return unitOrZero(glm::cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a));
+  return glm::cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a);
 }
 
 void addNormals(BaseMesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), glm::dvec3(0));
-  for (const BaseMesh::Triangle& triangle : mesh.triangles) {
-    const glm::dvec3 normal = faceNormal(mesh, triangle);
-    for (size_t i = 0; i < 3; ++i) {
-      const glm::dvec3 here = mesh.positions[triangle[i]];
-      const double angle =
-          angleBetween(mesh.positions[triangle[(i + 1) % 3]] - here, mesh.positions[triangle[(i + 2) % 3]] - here);
-      mesh.normals[triangle[i]] += normal * angle;
-    }
-  }
+  for (const BaseMesh::Triangle& triangle : mesh.triangles)
+    for (const uint32_t corner : triangle) mesh.normals[corner] += areaNormal(mesh, triangle);
   for (glm::dvec3& normal : mesh.normals) normal = unitOrZero(normal);
 }
 
 void addRoundness(BaseMesh& mesh) {
   std::vector<float> least(mesh.positions.size(), 1.0f);
   for (const BaseMesh::Triangle& triangle : mesh.triangles) {
-    const glm::dvec3 normal = faceNormal(mesh, triangle);
+    const glm::dvec3 normal = unitOrZero(areaNormal(mesh, triangle));
     for (const uint32_t corner : triangle)
       least[corner] = std::min(least[corner], static_cast<float>(glm::dot(normal, mesh.normals[corner])));
   }

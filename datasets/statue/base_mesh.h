@@ -17,7 +17,7 @@ struct BaseMesh {
   double diagonal = 1;
 
   std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;  // smooth: means of the triangles around, by their angles; 0 where they cancel
+  std::vector<glm::dvec3> normals;  // smooth: means of the triangles around, by their areas; 0 where they cancel
   // How far the surface is rounded between the corners: 1 where the triangles around agree with the normal, 0 at
   // creases.
   std::vector<float> roundness;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "datasets/random/random.h"
 
@@ -11,6 +12,11 @@ namespace farcell {
 namespace {
 
 using glm::dvec3;
+
+// Stones, display values.
+constexpr dvec3 kTuff{176, 162, 138}, kScoria{158, 84, 62}, kCoral{238, 234, 220}, kObsidian{38, 32, 34},
+    kBasalt{112, 108, 106};
+constexpr double kPassageM = 0.035;
 
 // Distances of simple bodies and their smooth joins (Quilez, Modeling with Distance Functions, 2008).
 double ellipsoid(dvec3 p, dvec3 centre, dvec3 radii) {
@@ -33,7 +39,8 @@ double capsule(dvec3 p, dvec3 a, dvec3 b, double radiusA, double radiusB) {
 double drum(dvec3 p, double low, double high, double radius, double rounding) {
   const double across = std::sqrt(p.x * p.x + p.y * p.y) - (radius - rounding);
   const double along = std::abs(p.z - (low + high) / 2) - ((high - low) / 2 - rounding);
-  return std::hypot(std::max(across, 0.0), std::max(along, 0.0)) + std::min(std::max(across, along), 0.0) - rounding;
+  return glm::length(glm::dvec2(std::max(across, 0.0), std::max(along, 0.0))) + std::min(std::max(across, along), 0.0) -
+         rounding;
 }
 
 double joined(double a, double b, double softness) {
@@ -64,6 +71,9 @@ double hands(dvec3 p) {
   return result;
 }
 
+// A rope around a body at one height, of which `d` is the distance.
+double rope(double d, double height, double radius) { return std::sqrt(d * d + height * height) - radius; }
+
 // x is the distance from the plane of symmetry in all that follows.
 double torso(dvec3 p, double bellyM) {
   double d = leaningBox(p, {0, 0, 0.80}, {0.86, 0.52, 0.86}, 0.34, 0.10);
@@ -74,9 +84,7 @@ double torso(dvec3 p, double bellyM) {
   d = joined(d, capsule(p, {1.00, -0.06, 0.50}, {0.60, -0.58, 0.34}, 0.17, 0.13), 0.07);
   d = joined(d, hands(p), 0.035);
   d = carved(d, ellipsoid(p, {0, -0.78, 0.72}, {0.06, 0.10, 0.06}), 0.05);
-  // A loin cloth: a band that stands out a little.
-  const double band = std::max(std::abs(p.z - 0.10) - 0.05, d - 0.035);
-  return joined(d, band, 0.03);
+  return joined(d, rope(d, p.z - 0.10, 0.05), 0.03);  // a loin cloth's
 }
 
 struct FaceProportions {
@@ -101,7 +109,8 @@ double mouth(dvec3 p, double d) {
 
 double nose(dvec3 p, const FaceProportions& face) {
   // The bridge is hollow in profile.
-  const double hollow = 0.07 * std::sin(std::clamp((p.z - 2.66) / 0.74, 0.0, 1.0) * 3.14159265358979);
+  const double along = std::clamp((p.z - 2.66) / 0.74, 0.0, 1.0);
+  const double hollow = 0.28 * along * (1 - along);
   const dvec3 q = p + dvec3(0, -hollow, 0);
   double d = capsule(q, {0, -0.62, 3.42}, {0, -0.86, 2.76}, 0.105, face.noseM);
   d = joined(d, ellipsoid(p, {0.16, -0.74, 2.72}, {0.115, 0.16, 0.10}), 0.06);
@@ -109,6 +118,11 @@ double nose(dvec3 p, const FaceProportions& face) {
 }
 
 double eye(dvec3 p) { return ellipsoid(p, {0.30, -0.54, 3.17}, {0.165, 0.10, 0.085}); }
+
+dvec3 eyeColour(dvec3 p) {
+  const double fromPupilM = glm::length(p - dvec3(0.30, -0.64, 3.17)) - 0.052;
+  return glm::mix(kObsidian, kCoral, glm::smoothstep(-0.012, 0.012, fromPupilM));
+}
 
 double head(dvec3 p, const FaceProportions& face) {
   double d = skull(p, face);
@@ -143,21 +157,29 @@ Moai::Moai(uint64_t seed) {
 double Moai::distance(dvec3 point) const {
   const dvec3 p = mirrored(point);
   const double body = joined(torso(p, bellyM_), head(p, {jawM_, noseM_, browM_, earM_}), 0.16);
-  double d = joined(body, eye(p), 0.012);
+  double d = joined(body, eye(p), 0.03);
   d = joined(d, topknot(p, topknotM_), 0.05);
   return joined(d, platform(p), 0.04);
 }
 
 std::array<uint8_t, 3> Moai::colour(dvec3 point) const {
-  constexpr std::array<uint8_t, 3> kTuff = {176, 162, 138}, kScoria = {150, 78, 58}, kCoral = {236, 232, 218},
-                                   kObsidian = {38, 32, 34}, kBasalt = {104, 100, 98};
   const dvec3 p = mirrored(point);
   const double body = joined(torso(p, bellyM_), head(p, {jawM_, noseM_, browM_, earM_}), 0.16);
   const double hat = topknot(p, topknotM_), base = platform(p), ball = eye(p);
-  const double least = std::min({body, hat, base, ball});
-  if (least == ball) return glm::length(p - dvec3(0.30, -0.64, 3.17)) < 0.055 ? kObsidian : kCoral;
-  if (least == hat) return kScoria;
-  return least == base ? kBasalt : kTuff;
+  // One stone passes into the next over a few centimetres: what is coarser than a vertex would be jagged.
+  const std::array<double, 4> distances = {body, hat, base, ball};
+  const std::array<dvec3, 4> stones = {kTuff, kScoria, kBasalt, eyeColour(p)};
+  const double least = *std::min_element(distances.begin(), distances.end());
+  dvec3 sum(0);
+  double weights = 0;
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const double share = std::max(0.0, 1 - (distances[i] - least) / kPassageM);
+    const double weight = share * share;
+    sum += weight * stones[i];
+    weights += weight;
+  }
+  sum = sum / weights + 0.5;
+  return {static_cast<uint8_t>(sum.x), static_cast<uint8_t>(sum.y), static_cast<uint8_t>(sum.z)};
 }
 
 }  // namespace farcell

@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kPartSize = 16'384;  // vertices or faces made at once
 constexpr size_t kBatchParts = 32;    // made together; bounds the memory
-constexpr double kMostCells = 150;    // the figure's lattice, over its height: finer shows nothing more
+constexpr double kMostCells = 240;    // the figure's lattice, over its height: finer shows nothing more
 constexpr double kFinestLayerEdges = 2;
 constexpr double kFloatShows = 1.0 / 64;  // of an edge: coarser steps of a float would show
 

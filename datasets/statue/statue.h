@@ -20,8 +20,8 @@ struct StatueSettings {
   uint64_t triangles = 5'000'000;  // wished; what is made is within 5 %, save for a mesh of very few
   uint64_t seed = 1;
   int threads = 0;           // 0: all the machine offers
-  double amplitude = 0.004;  // most that a vertex is moved, in diagonals of the bounding box; 0 to 0.1
-  double roughness = 0.5;    // height of each finer layer of relief against that of twice its width; 0 to 0.9
+  double amplitude = 0.016;  // most that a vertex is moved, in diagonals of the bounding box; 0 to 0.1
+  double roughness = 0.55;   // height of each finer layer of relief against that of twice its width; 0 to 0.9
 };
 
 inline constexpr uint64_t kMinStatueTriangles = 5'000;

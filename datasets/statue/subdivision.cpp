@@ -306,19 +306,26 @@ void Subdivision::gridFaces(size_t triangle, uint64_t first, std::span<Face> out
   }
 }
 
-// Between a side and the grid's side along it: at each turn on along the one whose next step ends sooner.
+// Between a side and the grid's side along it: at each turn the shorter of the two edges across that go on.
 void Subdivision::stripFaces(size_t triangle, size_t side, uint64_t first, std::span<Face> out) const {
-  const uint64_t outerParts = cuts(triangle, side);
-  const uint64_t innerParts = rows_[triangle] - kMinGridRows;
-  uint32_t outer = 0;
-  uint32_t inner = 0;
+  const int64_t outerParts = cuts(triangle, side);
+  const int64_t rows = rows_[triangle];
+  const int64_t innerParts = rows - kMinGridRows;
+  int64_t outer = 0;
+  int64_t inner = 0;
   for (uint64_t i = 0; i < first + out.size(); ++i) {
-    const bool alongOuter = (2 * outer + uint64_t{1}) * innerParts <= (2 * inner + uint64_t{1}) * outerParts;
+    // Places along the side, in parts of 2 outerParts rows; the grid begins one and a half of its steps in.
+    const int64_t outerPlace = 2 * rows * outer;
+    const int64_t innerPlace = outerParts * (2 * inner + 3);
+    const bool outerIsNearer =
+        std::abs(outerPlace + 2 * rows - innerPlace) <= std::abs(outerPlace - innerPlace - 2 * outerParts);
+    const bool alongOuter = inner == innerParts || (outer < outerParts && outerIsNearer);
     if (i >= first) {
-      const uint32_t from = sideVertex(triangle, side, outer);
-      const uint32_t across = gridSideVertex(triangle, side, inner);
-      out[i - first] = alongOuter ? Face{from, sideVertex(triangle, side, outer + 1), across}
-                                  : Face{from, gridSideVertex(triangle, side, inner + 1), across};
+      const uint32_t from = sideVertex(triangle, side, static_cast<uint32_t>(outer));
+      const uint32_t across = gridSideVertex(triangle, side, static_cast<uint32_t>(inner));
+      out[i - first] = alongOuter
+                           ? Face{from, sideVertex(triangle, side, static_cast<uint32_t>(outer + 1)), across}
+                           : Face{from, gridSideVertex(triangle, side, static_cast<uint32_t>(inner + 1)), across};
     }
     ++(alongOuter ? outer : inner);
   }

@@ -55,6 +55,26 @@ TEST_F(GenerateTest, WritesACityAndTellsItsCounts) {
   EXPECT_NE(text->find(fmt::format("element vertex {}\n", report["vertices"].get<uint64_t>())), std::string::npos);
 }
 
+TEST_F(GenerateTest, WritesAStatueOfItsOwnOrFromAMesh) {
+  const auto path = directory_ / "statue.ply";
+  const ProgramRun own = generate("statue --triangles 30k --json -o " + path.string());
+  ASSERT_EQ(own.exitCode, 0);
+  const auto report = nlohmann::json::parse(own.out, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << own.out;
+  EXPECT_EQ(report["bytes"].get<uint64_t>(), std::filesystem::file_size(path));
+  EXPECT_NEAR(report["triangles"].get<double>(), 30'000, 1'500);
+
+  const auto mesh = directory_ / "tetrahedron.obj";
+  ASSERT_TRUE(writeTextFile(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+  const ProgramRun grown =
+      generate("statue --from " + mesh.string() + " --triangles 10k --roughness 0.6 --json -o " + path.string());
+  ASSERT_EQ(grown.exitCode, 0);
+  const auto counts = nlohmann::json::parse(grown.out, nullptr, false);
+  EXPECT_EQ(counts["baseTriangles"].get<int>(), 4);
+  EXPECT_NEAR(counts["triangles"].get<double>(), 10'000, 500);
+  EXPECT_EQ(counts["vertices"].get<int>(), 2 + counts["triangles"].get<int>() / 2);
+}
+
 TEST_F(GenerateTest, TellsMisuseFromFailure) {
   const std::string path = (directory_ / "city.ply").string();
   EXPECT_EQ(generate("").exitCode, 2);
@@ -63,6 +83,10 @@ TEST_F(GenerateTest, TellsMisuseFromFailure) {
   EXPECT_EQ(generate("city --triangles many -o " + path).exitCode, 2);
   EXPECT_EQ(generate("city --triangles 10 -o " + path).exitCode, 2);
   EXPECT_EQ(generate("city --triangles 10k -o " + (directory_ / "missing" / "city.ply").string()).exitCode, 1);
+  EXPECT_EQ(generate("statue --triangles 10 -o " + path).exitCode, 2);
+  EXPECT_EQ(generate("statue --roughness 3 -o " + path).exitCode, 2);
+  EXPECT_EQ(generate("statue --triangles 20G -o " + path).exitCode, 1);
+  EXPECT_EQ(generate("statue --from missing.obj -o " + path).exitCode, 1);
   EXPECT_EQ(generate("--help").exitCode, 0);
   EXPECT_TRUE(std::filesystem::is_empty(directory_));
 }

@@ -1,0 +1,1 @@
+farcell_tests(datasets/statue DEPS farcell_datasets_statue farcell_preprocess_read)
