@@ -17,7 +17,7 @@ struct Backdrop {
   std::array<uint8_t, 3> horizon;
   std::array<uint8_t, 3> nadir;
 };
-inline constexpr Backdrop kSky = {{112, 158, 208}, {222, 231, 238}, {128, 133, 138}};
+inline constexpr Backdrop kSky = {{104, 152, 208}, {224, 232, 238}, {150, 158, 164}};
 
 class BackdropPainter {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -49,10 +50,22 @@ double nearestYaw(const CameraPose& from, double yawRad) {
   return from.yawRad + std::remainder(yawRad - from.yawRad, 2 * kPi);
 }
 
+double boundedPivot(double distance, const Sphere& ball) {
+  return std::clamp(distance, kNearestPivot * ball.radius, kFarthest * ball.radius);
+}
+
+// No one gets lost: the eye stays within some thousand radii of the model.
+CameraPose bounded(CameraPose pose, const Sphere& ball) {
+  const glm::dvec3 limit(kFarthest * ball.radius);
+  pose.eye = glm::clamp(pose.eye, ball.centre - limit, ball.centre + limit);
+  pose.distance = boundedPivot(pose.distance, ball);
+  return pose;
+}
+
 }  // namespace
 
 Controls::Controls(const Directory& directory, const Camera& start)
-    : directory_(directory), ball_(ballAround(directory.model)), motion_(poseOf(start)) {}
+    : directory_(directory), ball_(ballAround(directory.model)), motion_(bounded(poseOf(start), ball_)) {}
 
 void Controls::handle(const Event& event) {
   shift_ = event.shift;
@@ -121,7 +134,6 @@ void Controls::dollyTo(glm::dvec2 atPx, double scale) {
   const glm::dvec3 ray = rayThrough(goal, {2 * atPx.x / size.x - 1, 1 - 2 * atPx.y / size.y}, aspect());
   const double toPlane = goal.distance / -glm::dot(ray, axesOf(goal).back);
   goal = dollied(goal, goal.eye + ray * distanceAlong(directory_, goal.eye, ray).value_or(toPlane), scale);
-  goal.distance = std::clamp(goal.distance, kNearestPivot * ball_.radius, kFarthest * ball_.radius);
   setGoal(goal);
 }
 
@@ -173,16 +185,10 @@ void Controls::changeNavigation() {
   const glm::dvec3 ahead = -axesOf(goal).back;
   const double toCentre = glm::dot(ball_.centre - goal.eye, ahead);
   const double distance = distanceAlong(directory_, goal.eye, ahead).value_or(toCentre);
-  motion_.setDistance(std::clamp(distance, kNearestPivot * ball_.radius, kFarthest * ball_.radius));
+  motion_.setDistance(boundedPivot(distance, ball_));
 }
 
-// No one gets lost: the eye stays within some thousand radii of the model.
-void Controls::setGoal(CameraPose goal) {
-  const glm::dvec3 fromCentre = goal.eye - ball_.centre;
-  const double away = glm::length(fromCentre);
-  if (away > kFarthest * ball_.radius) goal.eye = ball_.centre + fromCentre * (kFarthest * ball_.radius / away);
-  motion_.setGoal(goal);
-}
+void Controls::setGoal(const CameraPose& goal) { motion_.setGoal(bounded(goal, ball_)); }
 
 // The farther from everything, the faster.
 glm::dvec3 Controls::velocity() const {

@@ -49,7 +49,7 @@ class Controls {
   void dollyTo(glm::dvec2 atPx, double scale);
   void changeNavigation();
   void lookAlong(double yawRad, double pitchRad);
-  void setGoal(CameraPose goal);
+  void setGoal(const CameraPose& goal);
   glm::dvec3 velocity() const;
 
   const Directory& directory_;
