@@ -17,6 +17,8 @@ packages=(
   libcli11-dev nlohmann-json3-dev libopenimageio-dev libembree-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev
+  # tests of manual pages and completion, which are skipped without them; the Debian package and what looks into it
+  man-db mandoc zsh fish dpkg-dev lintian
   # to unpack models that come compressed
   xz-utils
 )
