@@ -62,8 +62,9 @@ std::string handOver(const CommandDescription& program) {
   const std::string function = "__" + program.name + "_hand_over";
   return fmt::format(
       "function {0}\n"
-      "    set -l words (commandline -opc) (commandline -ct)\n"
-      "    complete -C \"{1}-$words[2] $(string escape -- $words[3..-2]) $words[-1]\"\n"
+      "    set -l words (commandline -opc)\n"
+      "    set -l current (commandline -ct)\n"
+      "    complete -C \"{1}-$words[2] $(string escape -- $words[3..] | string join ' ') $current\"\n"
       "end\n"
       "complete -c {1} -n '__fish_seen_subcommand_from {2}' -f -a '({0})'\n",
       function, program.name, CLI::detail::join(names, " "));
