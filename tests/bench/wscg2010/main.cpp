@@ -38,7 +38,9 @@ int main(int argc, char** argv) {
   farcell::wscg::Options options;
   app.add_option("--model", options.models, "A mesh of at most 8 M triangles; may be given several times")->required();
   app.add_option("-o,--output", options.output, "Directory for results.md, CSV files and pictures")->required();
-  app.add_option("--up", options.up, "The models' up axis")->capture_default_str()->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option("--up", options.up, "The models' up axis")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"x", "y", "z"}));
   app.add_flag("--quick", options.quick, "Small pictures, few cameras: rough figures in seconds");
   return farcell::runProgram(app, argc, argv, [&] { return farcell::wscg::run(options); });
 }

@@ -51,8 +51,7 @@ VertexBuffer uploadTriangles(std::span<const Triangle> triangles, glm::vec3 sun)
   vertices.reserve(3 * triangles.size());
   for (const Triangle& triangle : triangles) {
     const float light = shared::lightFactor(triangle.normal, sun);
-    for (size_t k = 0; k < 3; ++k)
-      vertices.push_back({triangle.corners[k], litColour(triangle.colours[k], light)});
+    for (size_t k = 0; k < 3; ++k) vertices.push_back({triangle.corners[k], litColour(triangle.colours[k], light)});
   }
   return uploadVertices(vertices);
 }

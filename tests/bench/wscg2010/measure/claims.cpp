@@ -37,12 +37,18 @@ struct Judge {
 // A claim about each scene, joined.
 class Verdicts {
  public:
-  void add(const std::string& scene, bool holds, const std::string& figures) {
-    ++(holds ? good_ : bad_);
+  void add(const std::string& scene, bool holds, const std::string& figures) { add(scene, holds, holds, figures); }
+  // Between the two: it holds in part.
+  void add(const std::string& scene, bool holds, bool holdsInPart, const std::string& figures) {
+    good_ += holds || holdsInPart;
+    bad_ += !holds;
     sentence_ += (sentence_.empty() ? "" : "; ") + scene + ": " + figures;
   }
   Claim claim(std::string text, const std::string& closing = "") const {
-    const char* verdict = good_ + bad_ == 0 ? "not measured" : bad_ == 0 ? "holds" : good_ == 0 ? "does not hold" : "depends";
+    const char* verdict = good_ + bad_ == 0 ? "not measured"
+                          : bad_ == 0       ? "holds"
+                          : good_ == 0      ? "does not hold"
+                                            : "depends";
     return {std::move(text), verdict, sentence_ + (closing.empty() ? "" : ". " + closing)};
   }
 
@@ -51,7 +57,6 @@ class Verdicts {
   std::string sentence_;
 };
 
-
 Claim moreCells(const Judge& judge) {
   Verdicts verdicts;
   for (const SceneFacts& scene : judge.results.scenes) {
@@ -59,7 +64,8 @@ Claim moreCells(const Judge& judge) {
                                             paperVariant(4).name};
     const bool falls = judge.atEveryDistance([&](double distance) {
       for (size_t i = 1; i < names.size(); ++i)
-        if (judge.error(scene.name, names[i], distance) >= judge.error(scene.name, names[i - 1], distance)) return false;
+        if (judge.error(scene.name, names[i], distance) >= judge.error(scene.name, names[i - 1], distance))
+          return false;
       return true;
     });
     std::string figures;
@@ -82,11 +88,13 @@ Claim orthographic(const Judge& judge, const std::string& base, const std::strin
       for (const int fovDeg : {40, 60, 90})
         best = std::min(best, judge.error(scene.name, fmt::format("{}, perspective {}", base, fovDeg), distance));
       less = less && own < best;
-      figures += fmt::format("{}{} against {} at {}", figures.empty() ? "" : ", ", number(own, 1), number(best, 1), distance);
+      figures +=
+          fmt::format("{}{} against {} at {}", figures.empty() ? "" : ", ", number(own, 1), number(best, 1), distance);
     }
     verdicts.add(scene.name, less, figures);
   }
-  return verdicts.claim(text, "(Orthographic against the best of 40, 60 and 90 degrees, at each distance in diameters)");
+  return verdicts.claim(text,
+                        "(Orthographic against the best of 40, 60 and 90 degrees, at each distance in diameters)");
 }
 
 Claim growing(const Judge& judge) {
@@ -95,9 +103,10 @@ Claim growing(const Judge& judge) {
   for (const SceneFacts& scene : judge.results.scenes) {
     const double before = judge.over(scene.name, cut, holes), after = judge.over(scene.name, paper, holes);
     const double farcell = judge.over(scene.name, judge.named("grown 1.04"), holes);
-    verdicts.add(scene.name, after <= kClosed * before,
-                 fmt::format("{} % of the covered pixels are holes, {} % once grown to the sphere, {} % at farcell's 1.04",
-                             number(100 * before, 3), number(100 * after, 3), number(100 * farcell, 3)));
+    verdicts.add(
+        scene.name, after <= kClosed * before,
+        fmt::format("{} % of the covered pixels are holes, {} % once grown to the sphere, {} % at farcell's 1.04",
+                    number(100 * before, 3), number(100 * after, 3), number(100 * farcell, 3)));
   }
   return verdicts.claim("Taking the triangles that meet the cell's sphere closes the black lines");
 }
@@ -110,12 +119,12 @@ Claim growingCosts(const Judge& judge) {
     const double farcell = judge.over(scene.name, grown, toSingle);
     const SizeResult* before = judge.sizes(scene.name, cut);
     const SizeResult* after = judge.sizes(scene.name, paper);
-    const double bytes = before != nullptr && after != nullptr
-                             ? after->bytes(Coding::zlibCell) / before->bytes(Coding::zlibCell)
-                             : 0;
-    verdicts.add(scene.name, sphere <= cube && sphere <= farcell,
-                 fmt::format("error {} cut, {} grown to the sphere, {} at 1.04; {} times the deflated bytes of cut cells",
-                             number(cube, 1), number(sphere, 1), number(farcell, 1), number(bytes, 2)));
+    const double bytes =
+        before != nullptr && after != nullptr ? after->bytes(Coding::zlibCell) / before->bytes(Coding::zlibCell) : 0;
+    verdicts.add(
+        scene.name, sphere <= cube && sphere <= farcell,
+        fmt::format("error {} cut, {} grown to the sphere, {} at 1.04; {} times the deflated bytes of cut cells",
+                    number(cube, 1), number(sphere, 1), number(farcell, 1), number(bytes, 2)));
   }
   return verdicts.claim("... and it is the better solution for that (\"although visually incorrect, effective\")");
 }
@@ -212,23 +221,27 @@ Claim disk(const Judge& judge) {
     const TimeRow* deflated = findTime(judge.results.times, scene.name, Source::deflatedCold);
     if (memory == nullptr) continue;
     const double slowdown = cold->frameMs / memory->frameMs;
-    verdicts.add(scene.name, slowdown >= kPaperDiskSlowdown / kLeeway || boundOf(*cold) == "read",
-                 fmt::format("cold reads make a frame {} times as long as uploads from memory (warm {}, deflated and cold "
-                             "{}); {} MB a frame at {} MB/s, most of it {}",
-                             number(slowdown, 1), number(warm->frameMs / memory->frameMs, 1),
-                             number(deflated->frameMs / memory->frameMs, 1), number(cold->readBytes / 1e6, 1),
-                             number(cold->readBytes / 1e3 / cold->readMs, 0), boundOf(*cold)));
+    verdicts.add(
+        scene.name, slowdown >= kPaperDiskSlowdown / kLeeway, boundOf(*cold) == "read",
+        fmt::format("cold reads make a frame {} times as long as uploads from memory (warm {}, deflated and cold "
+                    "{}); {} MB a frame at {} MB/s, most of it {}",
+                    number(slowdown, 1), number(warm->frameMs / memory->frameMs, 1),
+                    number(deflated->frameMs / memory->frameMs, 1), number(cold->readBytes / 1e6, 1),
+                    number(cold->readBytes / 1e3 / cold->readMs, 0), boundOf(*cold)));
   }
-  return verdicts.claim("The disk is the bottleneck: 100+ frames a second become 5",
-                        "(The paper's figures, 218 images of 34 KB at 5 frames a second, are 38 MB/s: a disk of its time)");
+  return verdicts.claim(
+      "The disk is the bottleneck: 100+ frames a second become 5",
+      "(In part: cold frames wait for the disk, but not 20 times as long. The paper's figures, 218 images of 34 KB "
+      "at 5 frames a second, are 38 MB/s: a disk of its time)");
 }
 
 Claim nearTriangles(const Judge& judge) {
   Verdicts verdicts;
   for (const NearTriangles& near : judge.results.near)
-    verdicts.add(near.scene, near.errorWith < near.errorWithout,
-                 fmt::format("error {} becomes {} with the nearest {} of {} cells as triangles", number(near.errorWithout, 1),
-                             number(near.errorWith, 1), near.cellsAsTriangles, near.cells));
+    verdicts.add(
+        near.scene, near.errorWith < near.errorWithout,
+        fmt::format("error {} becomes {} with the nearest {} of {} cells as triangles", number(near.errorWithout, 1),
+                    number(near.errorWith, 1), near.cellsAsTriangles, near.cells));
   return verdicts.claim("Near cells drawn as triangles repair what is left");
 }
 
@@ -237,18 +250,19 @@ Claim nearTriangles(const Judge& judge) {
 std::vector<Claim> judgeClaims(const ExperimentResults& results, const ExperimentSettings& settings) {
   const Judge judge{results, settings};
   const std::string singleLarge = paperVariant(0).name + ", 1024^2";
-  return {moreCells(judge),
-          orthographic(judge, singleLarge, "Single cell: orthographic images give less error than perspective ones"),
-          orthographic(judge, judge.paperName(), "Many cells: orthographic images give less error than perspective ones"),
-          growing(judge),
-          growingCosts(judge),
-          distance(judge),
-          nearTriangles(judge),
-          deflate(judge),
-          slowCoder(judge),
-          upload(judge),
-          disk(judge),
-          primitives(judge)};
+  return {
+      moreCells(judge),
+      orthographic(judge, singleLarge, "Single cell: orthographic images give less error than perspective ones"),
+      orthographic(judge, judge.paperName(), "Many cells: orthographic images give less error than perspective ones"),
+      growing(judge),
+      growingCosts(judge),
+      distance(judge),
+      nearTriangles(judge),
+      deflate(judge),
+      slowCoder(judge),
+      upload(judge),
+      disk(judge),
+      primitives(judge)};
 }
 
 }  // namespace farcell::wscg

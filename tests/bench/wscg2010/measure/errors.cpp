@@ -46,8 +46,8 @@ void measureTriangles(Stage& stage, const ErrorSettings& settings, ErrorResults&
   for (size_t i = 0; i < stage.cameras.size(); ++i) {
     const Camera& camera = stage.cameras[i].camera;
     frames.push_back(stage.full.draw(stage.painter, camera));
-    stage.truths.push_back({referenceOf(frames.back()),
-                            stage.full.trace(camera, settings.width, settings.height, settings.truthSamples)});
+    stage.truths.push_back(
+        {referenceOf(frames.back()), stage.full.trace(camera, settings.width, settings.height, settings.truthSamples)});
     results.rows.push_back(rowOf(stage, i, kTrianglesVariant, 0));
   }
   measureAll(stage, frames, results.rows);

@@ -1,4 +1,5 @@
-// The paper's error against distance, for the ways of making impostors that the paper compares and those it leaves open.
+// The paper's error against distance, for the ways of making impostors that the paper compares and those it leaves
+// open.
 #pragma once
 
 #include <string>

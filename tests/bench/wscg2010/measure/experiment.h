@@ -1,6 +1,7 @@
 // The whole experiment: tables, pictures and what has become of the paper's claims.
 //
-// For each model: loadScene -> measureErrors -> measureTimes -> measureSizes -> drawPictures; then writeReport over all.
+// For each model: loadScene -> measureErrors -> measureTimes -> measureSizes -> drawPictures; then writeReport over
+// all.
 #pragma once
 
 #include <filesystem>

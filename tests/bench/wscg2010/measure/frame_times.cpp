@@ -205,7 +205,7 @@ Result<TimeRow> timeSource(Bench& bench, const std::string& scene, Source source
 
 const char* sourceName(Source source) {
   constexpr std::array<const char*, kSourceCount> kNames = {
-      "triangles",     "images resident", "images uploaded anew", "read from disk, warm", "read from disk, cold",
+      "triangles",      "images resident", "images uploaded anew", "read from disk, warm", "read from disk, cold",
       "deflated, warm", "deflated, cold"};
   return kNames[static_cast<size_t>(source)];
 }

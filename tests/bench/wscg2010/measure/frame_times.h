@@ -38,11 +38,11 @@ struct TimeRow {
   Source source = Source::triangles;
   double frameMs = 0;
   double readMs = 0, inflateMs = 0, uploadMs = 0, drawMs = 0;  // upload: make the textures; draw: draw and wait
-  double readBytes = 0;     // mean per frame, of files
-  double textureBytes = 0;  // mean per frame, as uploaded
-  double items = 0;         // mean billboards, or triangles
-  double newImages = 0;     // mean share of a frame's images that the frame before did not use
-  double inMemory = 0;      // worst share of the file that was still in memory after asking to forget it
+  double readBytes = 0;                                        // mean per frame, of files
+  double textureBytes = 0;                                     // mean per frame, as uploaded
+  double items = 0;                                            // mean billboards, or triangles
+  double newImages = 0;  // mean share of a frame's images that the frame before did not use
+  double inMemory = 0;   // worst share of the file that was still in memory after asking to forget it
 };
 
 // REQUIRES: a current context.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -11,9 +12,24 @@ namespace farcell::wscg {
 namespace {
 
 constexpr double kSideDistance = 0.5, kSteepDistance = 1, kCloserDistance = 0.5, kLinesDistance = 0.1;
-constexpr double kFigure14FovDeg = 60;
 constexpr double kNearShare = 0.3;  // of the cells, drawn as triangles in figure 15
 constexpr uint32_t kWire = 0x40d0ff, kOutline = 0x60ff60;
+
+// The paper's pictures are "cropped to fit the content": the same eye with the angle that shows the model's box.
+Camera cropped(const Scene& scene, Camera camera) {
+  const CameraAxes axes = cameraAxes(camera);
+  double slope = 0;
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 corner(i & 1 ? scene.max.x : scene.min.x, i & 2 ? scene.max.y : scene.min.y,
+                            i & 4 ? scene.max.z : scene.min.z);
+    const glm::dvec3 toCorner = corner - camera.position;
+    const double depth = -glm::dot(toCorner, axes.back);
+    const double across = std::abs(glm::dot(toCorner, axes.right)) * kPictureHeight / kPictureWidth;
+    slope = std::max({slope, std::abs(glm::dot(toCorner, axes.up)) / depth, across / depth});
+  }
+  camera.fovYRad = 2 * std::atan(slope);
+  return camera;
+}
 
 std::vector<Billboard> billboardsFrom(const ImpostorSet& set, const Camera& camera) {
   return set.seenFrom(camera.position);
@@ -79,10 +95,12 @@ class PictureMaker {
   Result<NearTriangles> nearAsTriangles();  // 15
 
  private:
-  Camera sideCamera(double distance, double fovDeg = kReferenceFovDeg) const {
-    return orbitCamera(index_.scene(), levelDirections(index_.scene(), 1).front(), distance, fovDeg);
+  Camera sideCamera(double distance) const {
+    return orbitCamera(index_.scene(), levelDirections(index_.scene(), 1).front(), distance);
   }
-  Camera steepCamera() const { return orbitCamera(index_.scene(), steepDirection(index_.scene()), kSteepDistance); }
+  Camera steepCamera() const {
+    return cropped(index_.scene(), orbitCamera(index_.scene(), steepDirection(index_.scene()), kSteepDistance));
+  }
 
   const CellIndex& index_;
   const FullGeometry& full_;
@@ -159,7 +177,7 @@ Result<NearTriangles> PictureMaker::nearAsTriangles() {
 }
 
 Result<> PictureMaker::projections() {
-  const Camera camera = sideCamera(kSideDistance, kFigure14FovDeg);
+  const Camera camera = cropped(index_.scene(), sideCamera(kSideDistance));
   for (const int fovDeg : {0, 40, 60, 90}) {
     Variant variant = paperVariant(index_.depth());
     variant.impostors.image.fovRad = fovDeg * std::numbers::pi / 180;

@@ -49,7 +49,8 @@ std::vector<Value> cropped(const std::vector<Value>& values, size_t channels, in
   const size_t rowValues = channels * static_cast<size_t>(window.width());
   result.reserve(rowValues * static_cast<size_t>(window.height()));
   for (int y = window.y0; y < window.y1; ++y) {
-    const size_t from = channels * (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(window.x0));
+    const size_t from =
+        channels * (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(window.x0));
     result.insert(result.end(), values.begin() + static_cast<ptrdiff_t>(from),
                   values.begin() + static_cast<ptrdiff_t>(from + rowValues));
   }

@@ -1,5 +1,5 @@
-// What pictures are compared with: the paper's perspective rendering of the triangles at one sample a pixel, and 64 rays
-// a pixel.
+// What pictures are compared with: the paper's perspective rendering of the triangles at one sample a pixel, and 64
+// rays a pixel.
 #pragma once
 
 #include "tests/bench/wscg2010/draw/painter.h"

@@ -43,8 +43,8 @@ Table errorTable(const ErrorResults& errors, const std::string& scene, const Err
     for (const double distance : settings.distances)
       row.push_back(both(meanOver(errors, scene, variant, distance, toSingle),
                          meanOver(errors, scene, variant, distance, toTruth)));
-    row.push_back(both(steepOver(errors, scene, variant, steep, toSingle),
-                       steepOver(errors, scene, variant, steep, toTruth)));
+    row.push_back(
+        both(steepOver(errors, scene, variant, steep, toSingle), steepOver(errors, scene, variant, steep, toTruth)));
     row.push_back(number(100 * meanOver(errors, scene, variant, -1, holes), 3) + " %");
     row.push_back(number(100 * meanOver(errors, scene, variant, -1, leaks), 1) + " %");
     table.rows.push_back(row);
@@ -62,8 +62,8 @@ Table timeTable(const std::vector<TimeRow>& times) {
     table.rows.push_back({row.scene, sourceName(row.source), number(row.frameMs, 1), number(1000 / row.frameMs, 0),
                           number(row.readMs, 1), number(row.inflateMs, 1), number(row.uploadMs, 1),
                           number(row.drawMs, 1), boundOf(row), number(row.readBytes / 1e6, 2),
-                          number(row.textureBytes / 1e6, 2), number(row.items, 0),
-                          full ? "-" : percent(row.newImages), cold ? percent(row.inMemory) : "-"});
+                          number(row.textureBytes / 1e6, 2), number(row.items, 0), full ? "-" : percent(row.newImages),
+                          cold ? percent(row.inMemory) : "-"});
   }
   return table;
 }
@@ -128,17 +128,22 @@ std::string howMeasured(const ErrorSettings& settings) {
 
 std::string howTimed(const TimeSettings& settings) {
   return fmt::format(
-      "{}x{}, one turn around the model in {} frames at {} diameter, {} degrees up, paper's impostors; medians. Parts run one "
-      "after\nthe other on one thread, drawing on as many as OpenGL's driver takes. *New images*: the share that the frame "
-      "before did not use.\n*Still in memory*: what the operating system kept of the file after it was asked to forget it.\n",
+      "{}x{}, one turn around the model in {} frames at {} diameter, {} degrees up, paper's impostors; medians. Parts "
+      "run one "
+      "after\nthe other on one thread, drawing on as many as OpenGL's driver takes. *New images*: the share that the "
+      "frame "
+      "before did not use.\n*Still in memory*: what the operating system kept of the file after it was asked to forget "
+      "it.\n",
       settings.width, settings.height, settings.frames, settings.distance, settings.elevationDeg);
 }
 
 std::string report(const ExperimentResults& results, const ExperimentSettings& settings, const RunFacts& facts) {
   std::string text = "# The 2010 paper, measured\n\n";
   text +=
-      "Saraiva, Oliveira, Madeiras Pereira, *A Multi-Cellular Orthographic Projection Approach to Image-Based Rendering* "
-      "(WSCG 2010),\non models of today. Made by `tests/bench/wscg2010/run.sh`; every camera is in errors.csv beside this.\n\n";
+      "Saraiva, Oliveira, Madeiras Pereira, *A Multi-Cellular Orthographic Projection Approach to Image-Based "
+      "Rendering* "
+      "(WSCG 2010),\non models of today. Made by `tests/bench/wscg2010/run.sh`; every camera is in errors.csv beside "
+      "this.\n\n";
   text += fmt::format("{}, {} threads, {} GB; {}. {} minutes, {} MB at most.{}\n\n", facts.processor, facts.threads,
                       number(facts.memoryGb, 0), results.renderer, number(facts.minutes, 1), number(facts.peakMb, 0),
                       facts.quick ? " **Quick run: rough figures.**" : "");
@@ -148,14 +153,19 @@ std::string report(const ExperimentResults& results, const ExperimentSettings& s
   for (const SceneFacts& scene : results.scenes)
     text += fmt::format("\n## Error, {}\n\n", scene.name) +
             errorTable(results.errors, scene.name, settings.errors).markdown();
-  text += "\n*Holes*: of pixels the triangles cover, the share no impostor does. *Leaks*: the reverse, per covered pixel.\n";
+  text +=
+      "\n*Holes*: of pixels the triangles cover, the share no impostor does. *Leaks*: the reverse, per covered "
+      "pixel.\n";
   text += "\n## Frames\n\n" + howTimed(settings.times) + "\n" + timeTable(results.times).markdown();
   text += "\n## Bytes\n\nThe paper: 11 MB a cell cropped, 18 % by deflate, half of that by a slower coder.\n\n" +
           sizeTable(results.sizes).markdown();
   text +=
-      "\n## Pictures\n\n`sheet.png`, by rows: figure 8 (single cell, many, their differences from the triangles); 9 to 12 "
-      "(cells, impostors,\ntriangles, difference); 13 (outlines), 16 and 17 (closer: impostors, triangles, difference); 14 "
-      "(orthographic, perspective\n40, 60, 90 degrees); 4 and 7 (cut cells, grown cells, from 0.1 diameters), 15 (near cells "
+      "\n## Pictures\n\n`sheet.png`, by rows: figure 8 (single cell, many, their differences from the triangles); 9 to "
+      "12 "
+      "(cells, impostors,\ntriangles, difference); 13 (outlines), 16 and 17 (closer: impostors, triangles, "
+      "difference); 14 "
+      "(orthographic, perspective\n40, 60, 90 degrees); 4 and 7 (cut cells, grown cells, from 0.1 diameters), 15 (near "
+      "cells "
       "as triangles, and the difference).\n";
   return text;
 }

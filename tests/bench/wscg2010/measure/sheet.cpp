@@ -19,7 +19,8 @@ size_t at(const Picture& picture, int x, int y) {
 uint8_t meanOf(const Picture& picture, int x, int y, size_t channel) {
   int sum = 0;
   for (int dy = 0; dy < kShrink; ++dy)
-    for (int dx = 0; dx < kShrink; ++dx) sum += picture.pixels[at(picture, kShrink * x + dx, kShrink * y + dy) + channel];
+    for (int dx = 0; dx < kShrink; ++dx)
+      sum += picture.pixels[at(picture, kShrink * x + dx, kShrink * y + dy) + channel];
   return static_cast<uint8_t>((sum + kShrink * kShrink / 2) / (kShrink * kShrink));
 }
 

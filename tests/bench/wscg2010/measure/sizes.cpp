@@ -72,8 +72,8 @@ Result<CellSizes> measureCell(const CellIndex& index, size_t cell, const Variant
 
 const char* codingName(Coding coding) {
   constexpr std::array<const char*, kCodingCount> kNames = {
-      "raw RGBA, 128^2",   "cropped",         "zlib 6, per image", "zlib 6, per cell",
-      "pack's planes, per image", "WebP lossless, per image", "xz 6, per cell"};
+      "raw RGBA, 128^2",          "cropped",       "zlib 6, per image", "zlib 6, per cell", "pack's planes, per image",
+      "WebP lossless, per image", "xz 6, per cell"};
   return kNames[static_cast<size_t>(coding)];
 }
 

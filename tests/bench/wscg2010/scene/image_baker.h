@@ -24,9 +24,10 @@ struct CellImage {
 };
 
 struct ImageSettings {
-  double fovRad = 0;  // 0: orthographic; else the camera stands R / sin(fov / 2) from the centre of a sphere of radius R
-  int size = 128;     // texels along the edge
-  int samples = 1;    // per texel
+  double fovRad =
+      0;            // 0: orthographic; else the camera stands R / sin(fov / 2) from the centre of a sphere of radius R
+  int size = 128;   // texels along the edge
+  int samples = 1;  // per texel
 };
 
 // Half the width of an image on the plane through the cell's centre, over the radius of the enclosed sphere.
