@@ -23,7 +23,7 @@
 
 namespace farcell {
 
-inline constexpr uint64_t kMaxSceneBytes = uint64_t{32} << 20;
+inline constexpr uint64_t kMaxSceneBytes = uint64_t{16} << 20;
 inline constexpr size_t kMaxPlacements = 1'000'000;  // of all files together
 
 struct SceneFile {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -10,52 +11,74 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kMaxDepth = 8;
+constexpr size_t kMaxDepth = 8;
 constexpr size_t kMaxQuoted = 60;
 
-// What the parser itself lets pass; a callback of its, which never lets it keep what nests too deep.
-class DocumentGuard {
+// Reads a document without keeping it, for what the parser itself lets pass. (Its own callback for that looks through
+// all of an array at each object in it.)
+class DocumentGuard final : public nlohmann::json_sax<Json> {
  public:
-  bool operator()(int depth, Json::parse_event_t event, const Json& value) {
-    using Event = Json::parse_event_t;
-    tooDeep_ |= depth > kMaxDepth;
-    if (event == Event::object_start && !tooDeep_) names_.emplace_back();
-    if (event == Event::object_end && !tooDeep_) names_.pop_back();
-    if (event == Event::key && !tooDeep_ && !names_.back().insert(value.get<std::string>()).second && twice_.empty())
-      twice_ = value.get<std::string>();
-    return !tooDeep_;
-  }
-  bool tooDeep() const { return tooDeep_; }
-  const std::string& twice() const { return twice_; }
+  const std::optional<Error>& failure() const { return failure_; }
+  explicit DocumentGuard(const std::string& file) : file_(file) {}
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(size_t) override { return open(); }
+  bool start_array(size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override;
+  bool parse_error(size_t byte, const std::string& token, const Json::exception& error) override;
 
  private:
-  std::vector<std::set<std::string>> names_;  // of the objects that are open
-  std::string twice_;
-  bool tooDeep_ = false;
+  bool open();
+  bool close() {
+    names_.pop_back();
+    return true;
+  }
+
+  const std::string& file_;
+  std::vector<std::set<std::string>> names_;  // met so far in what is open
+  std::optional<Error> failure_;
 };
 
-// In ASCII, whatever it holds.
-std::string quoted(const std::string& text) {
+// The beginning of a text as a JSON string, whatever it holds.
+std::string inAscii(const std::string& text) {
   return Json(text.substr(0, kMaxQuoted)).dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+bool DocumentGuard::key(string_t& name) {
+  if (names_.back().insert(name).second) return true;
+  failure_ =
+      fail(ErrorKind::corrupt, "{}: expected each member of an object once, found {} twice", file_, inAscii(name))
+          .value();
+  return false;
+}
+
+bool DocumentGuard::open() {
+  names_.emplace_back();
+  if (names_.size() <= kMaxDepth) return true;
+  failure_ =
+      fail(ErrorKind::corrupt, "{}: expected at most {} levels of nesting, found more", file_, kMaxDepth).value();
+  return false;
+}
+
+bool DocumentGuard::parse_error(size_t byte, const std::string&, const Json::exception& error) {
+  failure_ = corrupt(file_, byte > 0 ? byte - 1 : 0, "JSON", error.what()).value();
+  return false;
 }
 
 }  // namespace
 
 Result<Json> parseSceneJson(const std::string& text, const std::string& file) {
-  try {
-    DocumentGuard guard;
-    Json json = Json::parse(text, std::ref(guard));
-    if (guard.tooDeep())
-      return fail(ErrorKind::corrupt, "{}: expected at most {} levels of nesting, found more", file, kMaxDepth);
-    if (!guard.twice().empty())
-      return fail(ErrorKind::corrupt, "{}: expected each member of an object once, found {} twice", file,
-                  quoted(guard.twice()));
-    return json;
-  } catch (const Json::parse_error& error) {
-    return corrupt(file, error.byte > 0 ? error.byte - 1 : 0, "JSON", error.what());
-  } catch (const Json::exception& error) {
-    return fail(ErrorKind::corrupt, "{}: expected JSON, found {}", file, error.what());
-  }
+  DocumentGuard guard(file);
+  if (!Json::sax_parse(text, &guard)) return tl::unexpected<Error>(*guard.failure());
+  return Json::parse(text);
 }
 
 tl::unexpected<Error> SceneValue::bad(const std::string& expected, const std::string& found) const {
@@ -65,14 +88,14 @@ tl::unexpected<Error> SceneValue::bad(const std::string& expected, const std::st
 tl::unexpected<Error> SceneValue::bad(const std::string& expected) const {
   if (json_.is_array()) return bad(expected, fmt::format("an array of {} elements", json_.size()));
   if (json_.is_object()) return bad(expected, fmt::format("an object of {} members", json_.size()));
-  return bad(expected, json_.is_string() ? quoted(json_.get_ref<const std::string&>()) : json_.dump());
+  return bad(expected, json_.is_string() ? inAscii(json_.get_ref<const std::string&>()) : json_.dump());
 }
 
 Result<> SceneValue::expectMembers(std::initializer_list<std::string_view> known) const {
   if (!json_.is_object()) return bad("an object");
   for (const auto& [name, value] : json_.items())
     if (std::find(known.begin(), known.end(), name) == known.end())
-      return bad(fmt::format("no members but {}", fmt::join(known, ", ")), quoted(name));
+      return bad(fmt::format("no members but {}", fmt::join(known, ", ")), inAscii(name));
   return {};
 }
 
