@@ -162,8 +162,7 @@ TEST(OpenMesh, RefusesWhatIsNoRegularFile) {
 
 TEST(OpenMesh, NamesTheFormatsItCannotRead) {
   const TempDirectory directory;
-  for (const auto& [name, format] :
-       {std::pair{"a.stl", "STL"}, {"a.OFF", "OFF"}, {"a.gltf", "glTF"}, {"a.glb", "binary glTF"}, {"a.xyz", ".xyz"}}) {
+  for (const auto& [name, format] : {std::pair{"a.stl", "STL"}, {"a.OFF", "OFF"}, {"a.xyz", ".xyz"}}) {
     const auto result = openMesh(directory.write(name, "solid nothing"));
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::unsupported);
