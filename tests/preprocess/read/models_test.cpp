@@ -59,6 +59,17 @@ TEST(Models, EveryFaceOfSpotIsAccountedFor) {
   EXPECT_FALSE(mesh.info.hasColours);
 }
 
+TEST(Models, EveryTriangleOfTheTreeIsAccountedFor) {
+  SKIP_WITHOUT(model("tree.glb"));
+  const ReadMesh mesh = readGood(model("tree.glb"));  // accepted + skipped == declared
+  EXPECT_EQ(mesh.info.declaredTriangles, 5354u);
+  EXPECT_TRUE(mesh.info.hasColours);
+  const auto reader = openMesh(model("tree.glb"));
+  ASSERT_TRUE(reader);
+  EXPECT_FALSE((*reader)->textures().empty());
+  for (const InputTriangle& triangle : mesh.triangles) ASSERT_LT(triangle.texture, (*reader)->textures().size());
+}
+
 TEST(Models, EveryFaceOfLinzIsAccountedFor) {
   SKIP_WITHOUT(model("linz-west.ply.xz"));
   const TempDirectory directory;
