@@ -23,6 +23,7 @@ constexpr std::array kVerbs = {
     Verb{"info", "say what a pack or a mesh file holds"},
     Verb{"verify", "check every byte of a pack"},
     Verb{"render", "draw a picture of a pack"},
+    Verb{"extract", "write the views of a pack as pictures"},
     Verb{"evaluate", "measure pictures of a pack against the full geometry"},
 };
 
