@@ -13,6 +13,8 @@ target_compile_options(farcell_settings INTERFACE -Wall -Wextra -Wpedantic -Wsha
 target_compile_definitions(farcell_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_XYZW_ONLY
                                                       FARCELL_VERSION="${PROJECT_VERSION}")
 target_link_libraries(farcell_settings INTERFACE Threads::Threads)
+# Messages name a source file from the root of the repository, wherever that lay: programs do not tell of the build.
+target_compile_options(farcell_settings INTERFACE -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 # Sanitizers make GCC see what is not there (-Wmaybe-uninitialized, -Wrestrict): there, warnings stay warnings.
 if(FARCELL_WERROR AND NOT FARCELL_SANITIZE)
   target_compile_options(farcell_settings INTERFACE -Werror)
@@ -36,10 +38,31 @@ function(farcell_library directory)
   endif()
 endfunction()
 
-# farcell_program(<directory> <name> [DEPS <libraries>...])
+# farcell_program(<directory> <name> [DEPS <libraries>...]). Those below tools/ are what farcell is for its users: the
+# global property FARCELL_PROGRAMS lists them, they are installed, and have manual pages and completion (cmake/reference.cmake).
 function(farcell_program directory name)
   cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${directory}/*.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE farcell_settings ${ARG_DEPS})
+  if(directory MATCHES "^tools/")
+    set_property(GLOBAL APPEND PROPERTY FARCELL_PROGRAMS ${name})
+  endif()
+endfunction()
+
+# farcell_embed(<library> HEADER <header> FUNCTION <name> FILES <paths from the repository root>...): a library of the
+# function, declared in the header, that gives the text of each file: it travels inside the program.
+function(farcell_embed library)
+  cmake_parse_arguments(ARG "" "HEADER;FUNCTION" "FILES" ${ARGN})
+  list(TRANSFORM ARG_FILES PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${library}.cpp)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
+  add_custom_command(
+    OUTPUT ${embedded}
+    COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -DOUTPUT=${embedded} -DHEADER=${ARG_HEADER}
+            -DFUNCTION=${ARG_FUNCTION} "-DFILES=${ARG_FILES}" -P ${script}
+    DEPENDS ${paths} ${script}
+    VERBATIM)
+  add_library(${library} STATIC ${embedded})
+  target_link_libraries(${library} PUBLIC farcell_settings)
 endfunction()

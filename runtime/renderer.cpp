@@ -21,6 +21,15 @@ constexpr int kMultisamples = 4;
 constexpr std::array<std::array<double, 2>, 4> kJitterPx = {
     {{-1.5 / 16, 0.5 / 16}, {-0.5 / 16, -1.5 / 16}, {0.5 / 16, 1.5 / 16}, {1.5 / 16, -0.5 / 16}}};
 
+int framesOf(const RenderSettings& settings) {
+  return settings.samplesPerPixel == 16 ? static_cast<int>(kJitterPx.size()) : 1;
+}
+
+glm::dvec2 jitterOf(int frame, int frames) {
+  const auto& jitter = kJitterPx[static_cast<size_t>(frame)];
+  return frames > 1 ? glm::dvec2(jitter[0], jitter[1]) : glm::dvec2(0);
+}
+
 class Stopwatch {
  public:
   double wallMs() const {
@@ -59,11 +68,14 @@ struct Renderer::Impl {
   const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
                     glm::dvec2 jitterPx, FrameStats& stats);
+  Result<FrameStats> drawOver(const Backdrop& backdrop, const Camera& camera, const RenderSettings& settings,
+                              GLuint framebuffer);
 
   const PackFile& pack;
   const Viewpoints viewpoints;
   int maxSize = 0;
   std::optional<FramePainter> painter;
+  std::optional<BackdropPainter> backdropPainter;  // made with the first picture that has a backdrop
   std::optional<FrameTarget> target;
 };
 
@@ -97,11 +109,33 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
       {settings.width, settings.height, jitterPx, settings.samplesPerPixel > 1 ? kMultisamples : 1}, cut);
   FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, counts));
   frame.resolve();
-  glFinish();
   stats.impostors = counts.impostors;
   stats.texels = counts.texels;
   stats.bytesRead += counts.bytesRead;
   return {};
+}
+
+// Passes of 16 samples are averaged as they come: each is mixed with the mean of those before.
+Result<FrameStats> Renderer::Impl::drawOver(const Backdrop& backdrop, const Camera& camera,
+                                            const RenderSettings& settings, GLuint framebuffer) {
+  FARCELL_TRY(checkSettings(settings));
+  if (!backdropPainter) {
+    FARCELL_ASSIGN(BackdropPainter made, BackdropPainter::create());
+    backdropPainter.emplace(std::move(made));
+  }
+  const Stopwatch watch;
+  FrameStats stats;
+  const Cut cut = selectCut(pack.directory(), viewpoints, camera, settings.width, settings.height, settings.selection);
+  const int frames = framesOf(settings);
+  for (int i = 0; i < frames; ++i) {
+    FARCELL_TRY(drawOnce(camera, settings, cut, false, jitterOf(i, frames), stats));
+    backdropPainter->paint(*target, backdrop, camera, upVector(pack.directory().model.settings.up), 1.0 / (i + 1),
+                           framebuffer);
+  }
+  stats.wallMs = watch.wallMs();
+  stats.cpuMs = watch.cpuMs();
+  stats.triangles = cut.triangles;
+  return stats;
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -129,14 +163,13 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   FARCELL_TRY(impl_->checkSettings(settings));
   FrameStats stats;
   std::vector<uint16_t> colourSums, coverageSums;
-  const int frames = settings.samplesPerPixel == 16 ? static_cast<int>(kJitterPx.size()) : 1;
+  const int frames = framesOf(settings);
   for (int i = 0; i < frames; ++i) {
-    const auto& jitter = kJitterPx[static_cast<size_t>(i)];
     const Stopwatch watch;
     const Cut cut = selectCut(impl_->pack.directory(), impl_->viewpoints, camera, settings.width, settings.height,
                               settings.selection);
-    FARCELL_TRY(impl_->drawOnce(camera, settings, cut, image != nullptr,
-                                frames > 1 ? glm::dvec2(jitter[0], jitter[1]) : glm::dvec2(0), stats));
+    FARCELL_TRY(impl_->drawOnce(camera, settings, cut, image != nullptr, jitterOf(i, frames), stats));
+    glFinish();
     stats.wallMs += watch.wallMs();
     stats.cpuMs += watch.cpuMs();
     stats.triangles = cut.triangles;
@@ -147,6 +180,18 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   if (image != nullptr)
     *image = {settings.width, settings.height, meanOf(colourSums, frames), meanOf(coverageSums, frames)};
   return stats;
+}
+
+Result<FrameStats> Renderer::show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {
+  constexpr GLuint kDefaultFramebuffer = 0;
+  return impl_->drawOver(backdrop, camera, settings, kDefaultFramebuffer);
+}
+
+Result<FrameImage> Renderer::capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {
+  FARCELL_TRY(impl_->checkSettings(settings));
+  const FrameTarget canvas(settings.width, settings.height, 1, false);
+  FARCELL_TRY(impl_->drawOver(backdrop, camera, settings, canvas.framebuffer()));
+  return FrameImage{settings.width, settings.height, canvas.readColour(), {}};
 }
 
 }  // namespace farcell

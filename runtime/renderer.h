@@ -7,6 +7,7 @@
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
 #include "runtime/camera/camera.h"
+#include "runtime/draw/backdrop.h"
 #include "runtime/draw/impostor_kind.h"
 #include "runtime/frame_image.h"
 #include "runtime/gl/context.h"
@@ -23,8 +24,9 @@ struct RenderSettings {
 };
 
 struct FrameStats {
-  double wallMs = 0;       // selection, draw and finish; without reading pages when all were resident
-  double cpuMs = 0;        // of the whole process
+  double wallMs = 0;  // selection, draw and finish (`draw`) or hand-over to the GPU (`show`); without reading pages
+                      // when all were resident
+  double cpuMs = 0;   // of the whole process
   uint64_t triangles = 0;  // drawn
   uint64_t impostors = 0;  // cells drawn as impostors
   uint64_t texels = 0;     // of the views drawn (cropped rectangles)
@@ -44,6 +46,12 @@ class Renderer {
   // Draws and waits until the GPU is done. `image` may be null: then nothing is read back (timing).
   // invalidArgument: a size or number of samples that cannot be; else what reading pages failed with.
   Result<FrameStats> draw(const Camera& camera, const RenderSettings& settings, FrameImage* image);
+
+  // Draws over the backdrop into the default framebuffer of the context's window, whose size is that of `settings`, and
+  // does not wait for the GPU. Fails as `draw` does.
+  Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
+  // The picture that `show` would show, alpha 255, read back.
+  Result<FrameImage> capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
 
  private:
   struct Impl;

@@ -1,4 +1,4 @@
-// The shader files, built into the program (shaders/embed.cmake writes the definition).
+// The shader files, built into the program (cmake/embed.cmake writes the definition).
 #pragma once
 
 #include <string_view>

@@ -58,7 +58,7 @@ runPreset() {
   echo "== $preset: done in $((SECONDS - start)) s" >&2
 }
 
-tools/install-deps.sh
+tools/install-deps.sh --tests
 for preset in "${presets[@]}"; do
   if ! runPreset "$preset"; then
     echo "== $preset: did not get as far as running tests" >&2

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Installs from the distribution's own packages what building, testing and running farcell needs, and only what is
-# missing. Made for Debian 12; the names are those of Ubuntu too, whose releases may bring other versions (Embree 3 is
-# needed). Quick and silent when nothing is missing.
+# Installs from the distribution's own packages what building and running farcell needs, and only what is missing; with
+# --tests also what the tests look through (a browser, a display, shells). Made for Debian 12; the names are those of
+# Ubuntu too, whose releases may bring other versions (Embree 3 is needed). Quick and silent when nothing is missing.
+# usage: tools/install-deps.sh [--tests]
 set -euo pipefail
 
 packages=(
@@ -9,17 +10,36 @@ packages=(
   g++ cmake ninja-build pkg-config
   # cache: messages, results, checksums, coding; vectors of all layers
   libfmt-dev libexpected-dev libxxhash-dev libglm-dev libdeflate-dev zlib1g-dev libmeshoptimizer-dev
-  # preprocess: SIMD
-  libhwy-dev
+  # preprocess: SIMD; glTF and what it may be compressed by
+  libhwy-dev libtinygltf-dev libdraco-dev
   # runtime: OpenGL by EGL without a window, and Mesa's software renderer where there is no GPU
   libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
+  # view: the window
+  libglfw3-dev
   # tools: command line, JSON, pictures, the ray tracer of the reference
-  libcli11-dev nlohmann-json3-dev libopenimageio-dev libembree-dev
-  # tests and benchmarks
-  libgtest-dev libbenchmark-dev
+  libcli11-dev nlohmann-json3-dev libpng-dev libopenimageio-dev libembree-dev
+  # tests and benchmarks, and the coders that a benchmark compares
+  libgtest-dev libbenchmark-dev libwebp-dev liblzma-dev
   # to unpack models that come compressed
   xz-utils
 )
+forTests=(
+  # the browser that opens a report
+  chromium
+  # a display without a screen for the window, and a hand for its keys
+  xvfb xdotool
+  # readers of manual pages, shells that complete, and what looks into the Debian package
+  man-db mandoc zsh fish dpkg-dev lintian
+)
+
+case ${1:-} in
+  '') ;;
+  --tests) packages+=("${forTests[@]}") ;;
+  *)
+    echo "usage: tools/install-deps.sh [--tests]" >&2
+    exit 2
+    ;;
+esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   {

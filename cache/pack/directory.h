@@ -54,8 +54,8 @@ struct BuildReport {
 // Cells lie in order of level, then Morton code: the root first, children after parents.
 struct Directory {
   Model model;
-  std::string sourceName;   // file name of the mesh, without its path
-  uint64_t sourceHash = 0;  // XXH3-64 of the mesh file's bytes
+  std::string sourceName;   // file name of the mesh or scene, of several the first, without its path
+  uint64_t sourceHash = 0;  // of the files it was built from, see FORMAT.md
   BuildReport report;
   std::vector<CellRecord> cells;
   std::vector<PageRecord> pages;  // by rising offset

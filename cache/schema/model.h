@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
 
 #include "cache/schema/grid.h"
 
@@ -39,6 +41,9 @@ inline constexpr std::array<uint8_t, 3> kDefaultAlbedo = {204, 200, 192};
 
 // Direction to the sun, unit, world axes: high, from the side, the same for every picture and bake of a model.
 glm::vec3 sunDirection(UpAxis up);
+// As people write them: "x", "y" or "z"; a length of mm, cm, m, km, in or ft. Nothing for other words.
+std::optional<UpAxis> upAxisNamed(std::string_view name);
+std::optional<double> metresOfUnit(std::string_view name);
 // Unit vector of the up axis, and of the two others in right-handed order after it.
 glm::dvec3 upVector(UpAxis up);
 

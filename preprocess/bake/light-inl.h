@@ -6,8 +6,9 @@
 #define FARCELL_BAKE_LIGHT_INL_H
 #endif
 
-#include "preprocess/bake/lanes-inl.h"
 #include "preprocess/bake/settle.h"
+#include "preprocess/bake/texture-inl.h"
+#include "preprocess/bake/triangle_lanes-inl.h"
 #include "shaders/shared/shading.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,64 +20,8 @@ struct Surface {
   VF face[3];    // of the flat triangle, not normalised
 };
 
-constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(float);
-
-// The triangles of one vector of samples, transposed (element by element: gather instructions are no faster).
-struct TriangleLanes {
-  HWY_ALIGN float positions[3][3][kLanes];
-  HWY_ALIGN uint32_t colours[3][kLanes];
-  HWY_ALIGN uint32_t normals[3][kLanes];
-};
-
-template <class T>
-HWY_INLINE void pick(const std::vector<T>& from, const uint32_t* indices, T* to) {
-  const T* elements = from.data();
-  for (size_t lane = 0; lane < hn::Lanes(DF()); ++lane) to[lane] = elements[indices[lane]];
-}
-
-HWY_INLINE void loadTriangles(const CellSoup& chunk, const uint32_t* triangles, TriangleLanes& lanes) {
-  for (size_t k = 0; k < 3; ++k) {
-    pick(chunk.x[k], triangles, lanes.positions[k][0]);
-    pick(chunk.y[k], triangles, lanes.positions[k][1]);
-    pick(chunk.z[k], triangles, lanes.positions[k][2]);
-    pick(chunk.colours[k], triangles, lanes.colours[k]);
-    if (!chunk.normals[k].empty()) pick(chunk.normals[k], triangles, lanes.normals[k]);
-  }
-}
-
 HWY_INLINE VF dot3(const VF (&a)[3], const VF (&b)[3]) {
   return hn::Add(hn::Mul(a[0], b[0]), hn::Add(hn::Mul(a[1], b[1]), hn::Mul(a[2], b[2])));
-}
-
-// Weights of corners 1 and 2; both and their rest are in [0, 1].
-struct Weights {
-  VF first, second;
-};
-
-HWY_INLINE Weights weightsAt(const VF (&p)[3][3], const Projection& projection, VF atX, VF atY) {
-  const DF df;
-  const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
-  const VF x0 = snapped(dot(p[0], projection.right), projection), y0 = snapped(dot(p[0], projection.up), projection);
-  const VF x1 = hn::Sub(snapped(dot(p[1], projection.right), projection), x0);
-  const VF y1 = hn::Sub(snapped(dot(p[1], projection.up), projection), y0);
-  const VF x2 = hn::Sub(snapped(dot(p[2], projection.right), projection), x0);
-  const VF y2 = hn::Sub(snapped(dot(p[2], projection.up), projection), y0);
-  const VF qx = hn::Sub(atX, x0), qy = hn::Sub(atY, y0);
-  const VF area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
-  const VF divisor = hn::IfThenElse(hn::Eq(area, zero), one, area);  // a sliver's area may round to zero
-  const VF first = hn::Div(hn::Sub(hn::Mul(qx, y2), hn::Mul(x2, qy)), divisor);
-  const VF second = hn::Div(hn::Sub(hn::Mul(x1, qy), hn::Mul(qx, y1)), divisor);
-  Weights weights;
-  weights.first = hn::Max(zero, hn::Min(one, first));
-  weights.second = hn::Max(zero, hn::Min(hn::Sub(one, weights.first), second));
-  return weights;
-}
-
-HWY_INLINE VF interpolated(const VF (&corner)[3], const Weights& weights) {
-  const DF df;
-  const VF rest = hn::Sub(hn::Sub(hn::Set(df, 1.0f), weights.first), weights.second);
-  return hn::Add(hn::Mul(corner[0], rest),
-                 hn::Add(hn::Mul(corner[1], weights.first), hn::Mul(corner[2], weights.second)));
 }
 
 HWY_INLINE void faceNormal(const VF (&p)[3][3], VF (&normal)[3]) {
@@ -162,6 +107,7 @@ HWY_INLINE Surface surfaceAt(const Winners& winners, const uint32_t* triangles, 
   }
   VF albedo[3];
   albedoAt(lanes, weights, albedo);
+  if (!winners.chunk.textures.empty()) multiplyByTextures(lanes, weights, *winners.textures, albedo);
   const VF scale = hn::Mul(lightOn(surface.normal, winners.sun), hn::Set(df, kColourOne / 255.0f));
   for (int channel = 0; channel < 3; ++channel) surface.colour[channel] = hn::Mul(albedo[channel], scale);
   return surface;

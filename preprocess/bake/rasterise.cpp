@@ -24,6 +24,7 @@ struct Batch {
 
 // One chunk on its way into the image.
 struct Rasteriser {
+  const CellSoup& chunk;
   const Projection& projection;
   SampleImage& image;
   RasterScratch& scratch;
@@ -60,7 +61,7 @@ void flush(Rasteriser& r, size_t size) {
   if (size < kSmallQueues) {
     walkSmall(queue, r.image);
   } else {
-    walkLarge(queue, r.lanes, r.image, r.scratch);
+    walkLarge(queue, r.chunk.textures, r.lanes, r.image, r.scratch);
   }
   queue.count = 0;
 }
@@ -144,7 +145,7 @@ TexelRect rasteriseChunk(const CellSoup& chunk, const Projection& projection, Sa
                          RasterScratch& scratch) {
   const DF df;
   const VF high = hn::Set(df, kMaxSampleEdge), low = hn::Set(df, -1.0f);
-  Rasteriser r{projection, image, scratch, SampleLanes(image), high, high, low, low};
+  Rasteriser r{chunk, projection, image, scratch, SampleLanes(image), high, high, low, low};
   Batch batch{};
   for (size_t k = 0; k < 3; ++k) {
     batch.x[k] = chunk.x[k].data();

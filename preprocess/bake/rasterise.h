@@ -45,7 +45,7 @@ inline constexpr size_t kSmallQueues = 4;
 
 struct RasterScratch {
   TriangleQueue queues[kSmallQueues + 1];
-  bool planes = true;                    // large triangles are to have colour planes (kHasPlane)
+  bool planes = true;                    // large triangles without texture are to have colour planes (kHasPlane)
   std::vector<uint32_t> largeTriangles;  // out: those of this chunk, in the order of their slots
   std::vector<uint32_t> largeSlots;      // out: by triangle; defined for large triangles only
 };

@@ -1,8 +1,9 @@
 // Settling: the samples that a chunk's triangles won get their colour, and the chunk's memory may go away.
 //
-// Sunlight does not depend on the viewer. A flat triangle's lit colour is linear across it: large triangles get a
-// *colour plane* and their samples are read off it; a small triangle's few samples are interpolated one by one, as are
-// all samples where normals differ from corner to corner or are asked for.
+// Sunlight does not depend on the viewer. A flat triangle's lit colour is linear across it unless it has a texture:
+// large triangles get a *colour plane* and their samples are read off it; a small triangle's few samples are
+// interpolated one by one, as are all samples of textured triangles, and where normals differ from corner to corner or
+// are asked for.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -38,6 +39,7 @@ struct Winners {
   const Projection& projection;
   glm::vec3 sun;
   std::span<const uint32_t> largeTriangles, largeSlots;  // rasterise.h
+  TextureSampler* textures;                              // null: the chunk has none
 };
 
 // touched: the texels that the chunk may have won samples of.

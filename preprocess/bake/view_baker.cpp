@@ -14,14 +14,18 @@ void CellSoup::clear() {
     z[k].clear();
     colours[k].clear();
     normals[k].clear();
+    u[k].clear();
+    v[k].clear();
   }
+  textures.clear();
 }
 
 struct ViewBaker::Impl {
-  explicit Impl(const BakeSettings& wanted)
-      : settings(wanted), image(wanted.imageSize, wanted.samples, wanted.normals) {}
+  Impl(const BakeSettings& wanted, TextureSampler* sampler)
+      : settings(wanted), textures(sampler), image(wanted.imageSize, wanted.samples, wanted.normals) {}
 
   BakeSettings settings;
+  TextureSampler* textures;
   bake::SampleImage image;
   bake::Projection projection{};
   bake::RasterScratch raster;
@@ -29,7 +33,8 @@ struct ViewBaker::Impl {
   bool begun = false;
 };
 
-ViewBaker::ViewBaker(const BakeSettings& settings) : impl_(std::make_unique<Impl>(settings)) {}
+ViewBaker::ViewBaker(const BakeSettings& settings, TextureSampler* textures)
+    : impl_(std::make_unique<Impl>(settings, textures)) {}
 ViewBaker::~ViewBaker() = default;
 ViewBaker::ViewBaker(ViewBaker&&) noexcept = default;
 
@@ -47,13 +52,17 @@ void ViewBaker::add(const CellSoup& chunk) {
     FARCELL_CHECK_EQ(chunk.z[k].size(), chunk.size());
     FARCELL_CHECK_EQ(chunk.colours[k].size(), chunk.size());
     FARCELL_CHECK(chunk.normals[k].size() == (chunk.normals[0].empty() ? 0 : chunk.size()));
+    FARCELL_CHECK_EQ(chunk.u[k].size(), chunk.textures.size());
+    FARCELL_CHECK_EQ(chunk.v[k].size(), chunk.textures.size());
   }
+  FARCELL_CHECK(chunk.textures.empty() || (impl_->textures != nullptr && chunk.textures.size() == chunk.size()));
   const bool flat = chunk.normals[0].empty();
   impl_->raster.planes = flat && !impl_->settings.normals;
   const bake::TexelRect touched = bake::rasterise(chunk, impl_->projection, impl_->image, impl_->raster);
   impl_->image.touched.include(touched);
-  const bake::Winners winners{chunk, impl_->projection, impl_->settings.sun, impl_->raster.largeTriangles,
-                              impl_->raster.largeSlots};
+  const bake::Winners winners{
+      chunk,          impl_->projection, impl_->settings.sun, impl_->raster.largeTriangles, impl_->raster.largeSlots,
+      impl_->textures};
   bake::settle(winners, touched, impl_->image, impl_->settling);
 }
 

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "cache/schema/view_frame.h"
+#include "preprocess/mesh/texture_sampler.h"
+#include "preprocess/mesh/texture_source.h"
 
 namespace farcell {
 
@@ -26,6 +28,10 @@ struct CellSoup {
   std::array<std::vector<uint32_t>, 3> colours;  // albedo, 0x00BBGGRR
   // Unit normals, octahedral as in GeometryPage; empty: flat, the face's own normal.
   std::array<std::vector<uint32_t>, 3> normals;
+  // What multiplies the albedo: kNoTexture, or the name of a texture and the corners' coordinates on it. Empty: no
+  // triangle has one.
+  std::vector<uint32_t> textures;
+  std::array<std::vector<float>, 3> u, v;
 
   size_t size() const { return x[0].size(); }
   void clear();
@@ -53,7 +59,8 @@ inline constexpr float kDepthAverageTexels = 3;
 // Scratch for one pair of views; reused from pair to pair. Not thread-safe: one per thread.
 class ViewBaker {
  public:
-  explicit ViewBaker(const BakeSettings& settings);
+  // textures: needed by chunks that have some; must outlive the baker.
+  explicit ViewBaker(const BakeSettings& settings, TextureSampler* textures = nullptr);
   ~ViewBaker();
   ViewBaker(ViewBaker&&) noexcept;
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "preprocess/bake/lanes-inl.h"
 #include "preprocess/bake/rasterise.h"
@@ -158,14 +159,17 @@ inline void walkTexelRow(const LargeTriangle& t, int texelRow, const SampleLanes
   }
 }
 
-void walkLarge(const TriangleQueue& queue, const SampleLanes& lanes, SampleImage& image, RasterScratch& scratch) {
+// textures: of the chunk's triangles; may be empty.
+void walkLarge(const TriangleQueue& queue, std::span<const uint32_t> textures, const SampleLanes& lanes,
+               SampleImage& image, RasterScratch& scratch) {
   for (size_t at = 0; at < queue.count; ++at) {
     if (queue.area[at] == 0) continue;
-    if (scratch.planes) {
+    const bool plane = scratch.planes && (textures.empty() || textures[queue.triangle[at]] == kNoTexture);
+    if (plane) {
       scratch.largeSlots[queue.triangle[at]] = static_cast<uint32_t>(scratch.largeTriangles.size());
       scratch.largeTriangles.push_back(queue.triangle[at]);
     }
-    const LargeTriangle t = largeTriangle(queue, at, image, scratch.planes ? kHasPlane : 0);
+    const LargeTriangle t = largeTriangle(queue, at, image, plane ? kHasPlane : 0);
     const int first = static_cast<int>(t.y0 + image.centreIndex) >> image.edgeShift;
     const int last = static_cast<int>(t.y1 + image.centreIndex) >> image.edgeShift;
     for (int texelRow = first; texelRow <= last; ++texelRow) walkTexelRow(t, texelRow, lanes, image);

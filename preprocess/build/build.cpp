@@ -4,15 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "cache/base/file.h"
-#include "cache/base/hash.h"
-#include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
 #include "cache/pack/pack_file.h"
 #include "preprocess/build/cell_bake.h"
 #include "preprocess/build/ordered_output.h"
+#include "preprocess/mesh/source_hash.h"
 #include "preprocess/partition/partition.h"
 #include "preprocess/read/open_mesh.h"
+#include "preprocess/texture/textures.h"
 
 namespace farcell {
 namespace {
@@ -21,18 +20,6 @@ constexpr size_t kCellsAhead = 256;  // finished cells that may wait for a slowe
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Result<uint64_t> hashFile(const std::filesystem::path& path) {
-  FARCELL_ASSIGN(const InputFile file, InputFile::open(path));
-  Hasher hasher;
-  std::vector<std::byte> buffer(size_t{1} << 20);
-  for (uint64_t offset = 0; offset < file.sizeBytes(); offset += buffer.size()) {
-    const auto part = std::span(buffer).first(std::min<uint64_t>(buffer.size(), file.sizeBytes() - offset));
-    FARCELL_TRY(file.readAt(offset, part));
-    hasher.add(part);
-  }
-  return hasher.value();
 }
 
 // Adds a finished cell to the pack and to the report.
@@ -57,9 +44,17 @@ Result<> writeCell(uint32_t cell, const CellPages& pages, PackWriter& writer, Di
   return {};
 }
 
+// One for each thread; nulls when the mesh has no textures.
+std::vector<std::unique_ptr<TextureSampler>> samplersOf(const Textures& textures, int threads) {
+  std::vector<std::unique_ptr<TextureSampler>> samplers(static_cast<size_t>(threads));
+  for (auto& sampler : samplers)
+    if (textures.count() > 0) sampler = textures.sampler();
+  return samplers;
+}
+
 // Bakes and writes every cell; shares the stage's wall time between bake and encode.
-Result<> bakeCells(const CellTree& tree, const Partition& partition, int threads, PackWriter& writer,
-                   Directory& directory, StageSeconds& seconds, Progress& progress) {
+Result<> bakeCells(const CellTree& tree, const Partition& partition, const Textures& textures, int threads,
+                   PackWriter& writer, Directory& directory, StageSeconds& seconds, Progress& progress) {
   FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
   const auto start = std::chrono::steady_clock::now();
   double bake = 0, encode = 0;
@@ -69,9 +64,11 @@ Result<> bakeCells(const CellTree& tree, const Partition& partition, int threads
     encode += pages.encodeSeconds;
     return writeCell(static_cast<uint32_t>(cell), pages, writer, directory);
   });
-  parallelFor(tree.cells.size(), threads, [&](size_t cell, int) {
+  const auto samplers = samplersOf(textures, threads);
+  parallelFor(tree.cells.size(), threads, [&](size_t cell, int worker) {
     if (output.failed()) return;
-    output.put(cell, bakeCell(static_cast<uint32_t>(cell), directory.model, tree, partition, viewpoints));
+    TextureSampler* sampler = samplers[static_cast<size_t>(worker)].get();
+    output.put(cell, bakeCell(static_cast<uint32_t>(cell), directory.model, tree, partition, viewpoints, sampler));
     progress.advance(static_cast<uint64_t>(viewpoints.count()));
   });
   FARCELL_TRY(output.result());
@@ -103,33 +100,36 @@ Result<> checkSettings(const BuildSettings& settings) {
   return {};
 }
 
-Result<BuildResult> buildPack(const std::filesystem::path& mesh, const std::filesystem::path& pack,
+Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, const std::filesystem::path& pack,
                               const BuildOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   FARCELL_TRY(checkSettings(options.settings));
   const int threads = threadCount(options.threads);
   const std::filesystem::path beside = pack.has_parent_path() ? pack.parent_path() : std::filesystem::path(".");
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(pack));
-  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMesh(mesh));
+  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMeshes(meshes));
+  BuildSettings settings = options.settings;
+  if (options.upOfModel) settings.up = reader->info().up;
+  if (options.unitOfModel) settings.metresPerUnit = reader->info().metresPerUnit;
+
+  const std::filesystem::path& scratch = options.scratchDirectory.empty() ? beside : options.scratchDirectory;
 
   BuildResult result;
   Directory& directory = result.directory;
-  directory.sourceName = mesh.filename().string();
-  FARCELL_ASSIGN(directory.sourceHash, hashFile(mesh));
-  FARCELL_ASSIGN(
-      const Partition partition,
-      partitionMesh(*reader, options.settings, options.scratchDirectory.empty() ? beside : options.scratchDirectory,
-                    threads, progress));
+  directory.sourceName = meshes[0].filename().string();
+  FARCELL_ASSIGN(directory.sourceHash, sourceHash(*reader));
+  FARCELL_ASSIGN(const Textures textures, Textures::open(reader->textures(), scratch, threads, progress));
+  result.textures = {textures.count() - textures.leftOut().size(), textures.leftOut()};
+  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, settings, scratch, threads, progress));
   CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
-  directory.model = {partition.grid, partition.bounds, options.settings, reader->info().hasNormals,
-                     reader->info().hasColours};
+  directory.model = {partition.grid, partition.bounds, settings, reader->info().hasNormals, reader->info().hasColours};
   directory.report.inputTriangles = partition.counts.accepted;
   directory.report.inputVertices = reader->info().vertices;
   directory.report.skipped = partition.counts.skipped;
   directory.cells = tree.cells;
   result.seconds.partition = partition.splitSeconds;
   result.seconds.read = secondsSince(start) - partition.splitSeconds;
-  FARCELL_TRY(bakeCells(tree, partition, threads, writer, directory, result.seconds, progress));
+  FARCELL_TRY(bakeCells(tree, partition, textures, threads, writer, directory, result.seconds, progress));
   progress.end();
   FARCELL_ASSIGN(result.packBytes, writer.finish(directory));
   result.seconds.total = secondsSince(start);

@@ -5,6 +5,7 @@
 
 #include "cache/base/interrupt.h"
 #include "preprocess/encode/geometry_page.h"
+#include "preprocess/encode/vertex_colours.h"
 #include "preprocess/encode/view_image.h"
 
 namespace farcell {
@@ -22,6 +23,11 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+Result<> checkSampler(const TextureSampler* textures) {
+  if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
+  return {};
+}
 
 // The views that are baked together with their antipodes.
 std::vector<int> pairLeaders(const Viewpoints& viewpoints) {
@@ -44,11 +50,11 @@ void finishPair(ViewBaker& baker, int view, const Viewpoints& viewpoints, int im
 ViewFrame frameOf(const Viewpoints& viewpoints, int view) { return viewFrame(viewpoints.directions()[view]); }
 
 Result<BakedViews> bakeGathered(uint32_t cell, const SoupSource& source, const std::vector<uint32_t>& leaves,
-                                const BakeSettings& settings, const Viewpoints& viewpoints) {
+                                const BakeSettings& settings, const Viewpoints& viewpoints, TextureSampler* textures) {
   CellSoup soup;
   for (const uint32_t leaf : leaves) FARCELL_TRY(source.append(cell, leaf, soup));
   BakedViews images(static_cast<size_t>(viewpoints.count()));
-  ViewBaker baker(settings);
+  ViewBaker baker(settings, textures);
   for (const int view : pairLeaders(viewpoints)) {
     FARCELL_TRY(checkInterrupt());
     baker.begin(frameOf(viewpoints, view));
@@ -59,10 +65,10 @@ Result<BakedViews> bakeGathered(uint32_t cell, const SoupSource& source, const s
 }
 
 Result<BakedViews> bakeStreamed(uint32_t cell, const SoupSource& source, const std::vector<uint32_t>& leaves,
-                                const BakeSettings& settings, const Viewpoints& viewpoints) {
+                                const BakeSettings& settings, const Viewpoints& viewpoints, TextureSampler* textures) {
   const std::vector<int> leaders = pairLeaders(viewpoints);
   std::vector<ViewBaker> bakers;
-  for (const int view : leaders) bakers.emplace_back(settings).begin(frameOf(viewpoints, view));
+  for (const int view : leaders) bakers.emplace_back(settings, textures).begin(frameOf(viewpoints, view));
   CellSoup soup;
   for (const uint32_t leaf : leaves) {
     FARCELL_TRY(checkInterrupt());
@@ -77,13 +83,13 @@ Result<BakedViews> bakeStreamed(uint32_t cell, const SoupSource& source, const s
 }
 
 Result<BakedViews> bakeViews(uint32_t cell, const Model& model, const CellTree& tree, const Partition& partition,
-                             const Viewpoints& viewpoints, uint64_t gatherTriangles) {
+                             const Viewpoints& viewpoints, TextureSampler* textures, uint64_t gatherTriangles) {
   const BakeSettings settings{model.settings.imageSize, model.settings.samples, sunDirection(model.settings.up),
                               model.settings.bakeNormals};
   const SoupSource source(model, tree, partition);
   const std::vector<uint32_t> leaves = source.leavesInside(cell);
   const bool gather = tree.cells[cell].triangles <= gatherTriangles;
-  return (gather ? bakeGathered : bakeStreamed)(cell, source, leaves, settings, viewpoints);
+  return (gather ? bakeGathered : bakeStreamed)(cell, source, leaves, settings, viewpoints, textures);
 }
 
 void encodeViews(BakedViews images, const Viewpoints& viewpoints, CellPages& result) {
@@ -106,9 +112,10 @@ void encodeViews(BakedViews images, const Viewpoints& viewpoints, CellPages& res
 }
 
 Result<> encodeGeometry(uint32_t cell, const Model& model, const CellTree& tree, const Partition& partition,
-                        CellPages& result) {
-  FARCELL_ASSIGN(const std::vector<GridTriangle> triangles,
-                 partition.triangles.read(partition.leaves[tree.leafOf[cell]].list));
+                        TextureSampler* textures, CellPages& result) {
+  FARCELL_ASSIGN(GridTriangles list, partition.triangles.read(partition.leaves[tree.leafOf[cell]].list));
+  const std::vector<GridTriangle> triangles = withTexturesAsColours(std::move(list), textures);
+  FARCELL_TRY(checkSampler(textures));
   const GridPoint cellMin = cellBox(model.grid, tree.cells[cell].key).min;
   const GeometryPage page = optimisedOrder(geometryPage(triangles, cellMin, model));
   result.pages.push_back({PageKind::geometry, 0, decodedSizeBytes(page), encodeGeometryPage(page)});
@@ -118,17 +125,18 @@ Result<> encodeGeometry(uint32_t cell, const Model& model, const CellTree& tree,
 }  // namespace
 
 Result<CellPages> bakeCell(uint32_t cell, const Model& model, const CellTree& tree, const Partition& partition,
-                           const Viewpoints& viewpoints, uint64_t gatherTriangles) {
+                           const Viewpoints& viewpoints, TextureSampler* textures, uint64_t gatherTriangles) {
   CellPages result;
   Stopwatch watch;
   const bool leaf = tree.cells[cell].childCount == 0;
-  if (leaf) FARCELL_TRY(encodeGeometry(cell, model, tree, partition, result));
+  if (leaf) FARCELL_TRY(encodeGeometry(cell, model, tree, partition, textures, result));
   result.encodeSeconds += watch.lap();
   if (leaf && tree.cells[cell].triangles < kTrianglesCheaperThanView) {
     result.viewsCheaperAsTriangles = static_cast<uint64_t>(viewpoints.count());
     return result;
   }
-  FARCELL_ASSIGN(BakedViews images, bakeViews(cell, model, tree, partition, viewpoints, gatherTriangles));
+  FARCELL_ASSIGN(BakedViews images, bakeViews(cell, model, tree, partition, viewpoints, textures, gatherTriangles));
+  FARCELL_TRY(checkSampler(textures));
   result.bakeSeconds += watch.lap();
   encodeViews(std::move(images), viewpoints, result);
   result.encodeSeconds += watch.lap();

@@ -7,6 +7,7 @@
 #include "cache/pack/directory.h"
 #include "cache/schema/viewpoints.h"
 #include "preprocess/build/soup.h"
+#include "preprocess/mesh/texture_sampler.h"
 
 namespace farcell {
 
@@ -36,7 +37,9 @@ struct CellPages {
   double encodeSeconds = 0;
 };
 
+// textures: those of the mesh, a sampler of this thread; null when it has none.
 Result<CellPages> bakeCell(uint32_t cell, const Model& model, const CellTree& tree, const Partition& partition,
-                           const Viewpoints& viewpoints, uint64_t gatherTriangles = kGatherTriangles);
+                           const Viewpoints& viewpoints, TextureSampler* textures,
+                           uint64_t gatherTriangles = kGatherTriangles);
 
 }  // namespace farcell

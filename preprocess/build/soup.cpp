@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cache/schema/view_frame.h"
+#include "preprocess/partition/grid_triangle.h"
 
 namespace farcell {
 namespace {
@@ -14,6 +15,7 @@ struct Corner {
   glm::dvec3 position;  // cell-local
   glm::dvec3 colour;    // 0..255
   glm::vec3 normal;
+  glm::dvec2 coordinates;  // on the texture
 };
 
 // A triangle cut by the six planes of a cube has at most nine corners.
@@ -24,7 +26,8 @@ struct Polygon {
 
 Corner mix(const Corner& a, const Corner& b, double t) {
   return {a.position + (b.position - a.position) * t, a.colour + (b.colour - a.colour) * t,
-          a.normal * static_cast<float>(1 - t) + b.normal * static_cast<float>(t)};
+          a.normal * static_cast<float>(1 - t) + b.normal * static_cast<float>(t),
+          a.coordinates + (b.coordinates - a.coordinates) * t};
 }
 
 // Sutherland and Hodgman, Reentrant Polygon Clipping, 1974: the part with sign * position[axis] <= kCellGrowth.
@@ -56,6 +59,27 @@ void pushCorner(CellSoup& soup, size_t k, glm::dvec3 position, uint32_t colour) 
   soup.colours[k].push_back(colour);
 }
 
+// Before a triangle goes into the soup: whether it does with a texture. From the first such triangle on all have
+// entries.
+bool hasTexture(const TriangleTexture& texture, CellSoup& soup) {
+  if (texture.texture == kNoTexture) return !soup.textures.empty();
+  if (!soup.textures.empty()) return true;
+  soup.textures.resize(soup.size(), kNoTexture);
+  for (size_t k = 0; k < 3; ++k) {
+    soup.u[k].resize(soup.size());
+    soup.v[k].resize(soup.size());
+  }
+  return true;
+}
+
+void pushTexture(CellSoup& soup, uint32_t texture, const std::array<glm::vec2, 3>& coordinates) {
+  soup.textures.push_back(texture);
+  for (size_t k = 0; k < 3; ++k) {
+    soup.u[k].push_back(coordinates[k].x);
+    soup.v[k].push_back(coordinates[k].y);
+  }
+}
+
 // Cell-local coordinates of grid points.
 struct LocalFrame {
   glm::dvec3 centreSteps;
@@ -69,18 +93,32 @@ struct LocalFrame {
   glm::dvec3 operator()(GridPoint point) const { return (glm::dvec3(point) - centreSteps) * localFromSteps; }
 };
 
-void appendCut(const GridTriangle& triangle, const LocalFrame& local, bool withNormals, CellSoup& soup) {
+void appendWhole(const GridTriangle& triangle, const TriangleTexture& texture, const LocalFrame& local,
+                 bool withNormals, CellSoup& soup) {
+  if (hasTexture(texture, soup)) pushTexture(soup, texture.texture, texture.coordinates);
+  for (size_t k = 0; k < 3; ++k) {
+    pushCorner(soup, k, local(triangle.corners[k]), triangle.colours[k]);
+    if (withNormals) soup.normals[k].push_back(triangle.normals[k]);
+  }
+}
+
+void appendCut(const GridTriangle& triangle, const TriangleTexture& texture, const LocalFrame& local, bool withNormals,
+               CellSoup& soup) {
   Polygon polygon;
   polygon.count = 3;
   for (int k = 0; k < 3; ++k) {
     const uint32_t colour = triangle.colours[k];
     polygon.corners[k] = {local(triangle.corners[k]), glm::dvec3(colour & 255, colour >> 8 & 255, colour >> 16 & 255),
-                          withNormals ? unpackNormal(triangle.normals[k]) : glm::vec3(0)};
+                          withNormals ? unpackNormal(triangle.normals[k]) : glm::vec3(0),
+                          glm::dvec2(texture.coordinates[k])};
   }
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) polygon = clipped(polygon, axis, sign);
   for (int i = 2; i < polygon.count; ++i) {
     const std::array<const Corner*, 3> fan = {&polygon.corners[0], &polygon.corners[i - 1], &polygon.corners[i]};
+    if (hasTexture(texture, soup))
+      pushTexture(soup, texture.texture,
+                  {glm::vec2(fan[0]->coordinates), glm::vec2(fan[1]->coordinates), glm::vec2(fan[2]->coordinates)});
     for (size_t k = 0; k < 3; ++k) {
       pushCorner(soup, k, fan[k]->position, packColour(fan[k]->colour));
       if (withNormals) soup.normals[k].push_back(packNormal(fan[k]->normal));
@@ -119,15 +157,12 @@ std::vector<uint32_t> SoupSource::leavesInside(uint32_t cell) const {
 Result<> SoupSource::append(uint32_t cell, uint32_t leafCell, CellSoup& soup) const {
   const LocalFrame local(model_.grid, tree_.cells[cell].key);
   const bool withNormals = model_.hasNormals;
-  const auto put = [&](std::span<const GridTriangle> portion) -> Result<> {
-    for (const GridTriangle& triangle : portion) {
+  const auto put = [&](const GridTriangleSpan& portion) -> Result<> {
+    for (size_t i = 0; i < portion.size(); ++i) {
+      const GridTriangle& triangle = portion.triangles[i];
       const int place = placeOf(boxOf(triangle), local);
-      if (place == 0) appendCut(triangle, local, withNormals, soup);
-      if (place <= 0) continue;
-      for (size_t k = 0; k < 3; ++k) {
-        pushCorner(soup, k, local(triangle.corners[k]), triangle.colours[k]);
-        if (withNormals) soup.normals[k].push_back(triangle.normals[k]);
-      }
+      if (place < 0) continue;
+      (place == 0 ? appendCut : appendWhole)(triangle, portion.texture(i), local, withNormals, soup);
     }
     return {};
   };

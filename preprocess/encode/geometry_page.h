@@ -5,7 +5,7 @@
 
 #include "cache/pack/pages.h"
 #include "cache/schema/model.h"
-#include "preprocess/partition/grid_triangle.h"
+#include "preprocess/partition/grid_triangles.h"
 
 namespace farcell {
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "cache/base/result.h"
+#include "cache/schema/model.h"
 #include "preprocess/mesh/texture_source.h"
 
 namespace farcell {
@@ -36,7 +37,10 @@ struct InputTriangle {
 
 // What the file's header or first pass tells.
 struct MeshInfo {
-  bool hasColours = false;  // also when a triangle may name a texture
+  std::string format;        // for people: "PLY, ASCII"
+  UpAxis up = UpAxis::z;     // as the format has it, or the file says
+  double metresPerUnit = 1;  // likewise
+  bool hasColours = false;   // also when a triangle may name a texture
   bool hasNormals = false;
   uint64_t declaredTriangles = 0;  // after triangulation, where the format declares it or a first pass counted it
   uint64_t vertices = 0;

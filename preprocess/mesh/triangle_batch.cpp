@@ -9,6 +9,8 @@ namespace {
 constexpr size_t kBatchTriangles = 2048;  // 240 KiB: still in the cache when the sink reads them
 
 bool isFinite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+const Vertices kNoVertices;
 }  // namespace
 
 TriangleBatch::TriangleBatch(const Vertices& vertices, const MeshReader::Sink& sink)
@@ -18,6 +20,8 @@ TriangleBatch::TriangleBatch(const Vertices& vertices, const MeshReader::Sink& s
       defaultColour_(defaultColour()),
       triangles_(kBatchTriangles) {}
 
+TriangleBatch::TriangleBatch(const MeshReader::Sink& sink) : TriangleBatch(kNoVertices, sink) {}
+
 // The corners' positions; false, and counted, when the triangle must be left out.
 bool TriangleBatch::gather(const Indices& positions, std::array<glm::dvec3, 3>& out) {
   if (positions[0] >= vertexCount_ || positions[1] >= vertexCount_ || positions[2] >= vertexCount_) {
@@ -25,25 +29,41 @@ bool TriangleBatch::gather(const Indices& positions, std::array<glm::dvec3, 3>& 
     return false;
   }
   for (size_t i = 0; i < 3; ++i) out[i] = vertices_.position(positions[i]);
-  if (!vertices_.allFinite && !(isFinite(out[0]) && isFinite(out[1]) && isFinite(out[2]))) {
+  return isUsable(out, vertices_.allFinite);
+}
+
+bool TriangleBatch::isUsable(const std::array<glm::dvec3, 3>& positions, bool allFinite) {
+  if (!allFinite && !(isFinite(positions[0]) && isFinite(positions[1]) && isFinite(positions[2]))) {
     ++nonFinite_;
     return false;
   }
-  if (hasZeroArea(out)) {
+  if (hasZeroArea(positions)) {
     ++zeroArea_;
     return false;
   }
   return true;
 }
 
-void TriangleBatch::add(const Indices& positions, const Indices& normals, uint32_t faceColour) {
+void TriangleBatch::add(const Indices& positions, const Indices& normals, const FaceLook& look) {
   InputTriangle& triangle = triangles_[used_];
   if (failed() || !gather(positions, triangle.positions)) return;
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t colour = vertices_.colours.empty() ? kNoColour : vertices_.colours[positions[i]];
-    triangle.colours[i] = colour == kNoColour ? faceColour : colour;
+    triangle.colours[i] = colour == kNoColour ? look.colour : colour;
     triangle.normals[i] = normals[i] < vertices_.normals.size() ? vertices_.normals[normals[i]] : glm::vec3(0);
   }
+  triangle.texture = look.texture;
+  if (look.texture != kNoTexture) triangle.textureCoordinates = look.textureCoordinates;
+  accept();
+}
+
+void TriangleBatch::add(const InputTriangle& triangle) {
+  if (failed() || !isUsable(triangle.positions, false)) return;
+  triangles_[used_] = triangle;
+  accept();
+}
+
+void TriangleBatch::accept() {
   ++accepted_;
   if (++used_ == kBatchTriangles) flush();
 }

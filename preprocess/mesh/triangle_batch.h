@@ -15,20 +15,32 @@ namespace farcell {
 class TriangleBatch {
  public:
   using Indices = std::array<uint64_t, 3>;  // a negative index of the file, cast, is out of range like any other
+  struct FaceLook {
+    uint32_t colour;  // of corners whose vertex has none
+    uint32_t texture = kNoTexture;
+    std::array<glm::vec2, 3> textureCoordinates{};
+  };
 
   // Both must outlive the batch.
   TriangleBatch(const Vertices& vertices, const MeshReader::Sink& sink);
+  // For triangles that bring their own corners.
+  explicit TriangleBatch(const MeshReader::Sink& sink);
 
   // Normals are those of the same indices. After failed() triangles are ignored.
-  void add(const Indices& positions) { add(positions, positions, defaultColour_); }
-  // Normal indices out of range give a zero normal; faceColour is for corners whose vertex has none.
-  void add(const Indices& positions, const Indices& normals, uint32_t faceColour);
+  void add(const Indices& positions) { add(positions, positions, FaceLook{defaultColour_}); }
+  // Normal indices out of range give a zero normal.
+  void add(const Indices& positions, const Indices& normals, const FaceLook& look);
+  // Corners and looks as they are; checks the positions only.
+  void add(const InputTriangle& triangle);
+  void skipBadIndex() { ++badIndex_; }  // a triangle whose vertices its reader did not find
   bool failed() const { return failure_.has_value(); }
   // Hands on what is left. The counts, or the error of the sink.
   Result<MeshCounts> finish();
 
  private:
   bool gather(const Indices& positions, std::array<glm::dvec3, 3>& out);
+  bool isUsable(const std::array<glm::dvec3, 3>& positions, bool allFinite);
+  void accept();
   void flush();
 
   const Vertices& vertices_;

@@ -35,13 +35,18 @@ uint32_t mixNormals(uint32_t a, uint32_t b, double t) {
   return packNormal(unpackNormal(a) * static_cast<float>(1 - t) + unpackNormal(b) * static_cast<float>(t));
 }
 
+glm::vec2 mixCoordinates(glm::vec2 a, glm::vec2 b, double t) {
+  return glm::vec2(glm::dvec2(a) + (glm::dvec2(b) - glm::dvec2(a)) * t);
+}
+
 // Where the edge a-b meets the plane. Swapped ends give the same corner.
 GridCorner cutEdge(GridCorner a, GridCorner b, int axis, int32_t plane) {
   if (a.position[axis] > b.position[axis]) std::swap(a, b);
   const int64_t below = int64_t{plane} - a.position[axis];
   const int64_t above = int64_t{b.position[axis]} - plane;
   const double t = static_cast<double>(below) / static_cast<double>(below + above);
-  GridCorner cut{a.position, mixColours(a.colour, b.colour, t), mixNormals(a.normal, b.normal, t)};
+  GridCorner cut{a.position, mixColours(a.colour, b.colour, t), mixNormals(a.normal, b.normal, t),
+                 mixCoordinates(a.coordinates, b.coordinates, t)};
   for (int other = 0; other < 3; ++other)
     cut.position[other] =
         static_cast<int32_t>(roundedQuotient(a.position[other] * above + b.position[other] * below, below + above));
@@ -77,10 +82,12 @@ bool isDegenerate(const GridTriangle& triangle) {
   return u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
 }
 
-GridPolygon polygonOf(const GridTriangle& triangle) {
+GridPolygon polygonOf(const GridTriangle& triangle, const TriangleTexture& texture) {
   GridPolygon polygon;
-  for (int k = 0; k < 3; ++k) polygon.corners[k] = {triangle.corners[k], triangle.colours[k], triangle.normals[k]};
+  for (int k = 0; k < 3; ++k)
+    polygon.corners[k] = {triangle.corners[k], triangle.colours[k], triangle.normals[k], texture.coordinates[k]};
   polygon.count = 3;
+  polygon.texture = texture.texture;
   return polygon;
 }
 
@@ -90,17 +97,19 @@ GridBox boxOf(const GridPolygon& polygon) {
   return box;
 }
 
-void appendTriangles(const GridPolygon& polygon, std::vector<GridTriangle>& out) {
+void appendTriangles(const GridPolygon& polygon, GridTriangles& out) {
   for (int i = 2; i < polygon.count; ++i) {
     const GridCorner &a = polygon.corners[0], &b = polygon.corners[i - 1], &c = polygon.corners[i];
     const GridTriangle part{
         {a.position, b.position, c.position}, {a.colour, b.colour, c.colour}, {a.normal, b.normal, c.normal}};
-    if (!isDegenerate(part)) out.push_back(part);
+    if (isDegenerate(part)) continue;
+    out.add(part, {polygon.texture, {a.coordinates, b.coordinates, c.coordinates}});
   }
 }
 
 CutPolygon cutAt(const GridPolygon& polygon, int axis, int32_t plane) {
   CutPolygon cut;
+  cut.low.texture = cut.high.texture = polygon.texture;
   const GridBox box = boxOf(polygon);
   if (box.min[axis] >= plane) cut.high = polygon;
   if (box.min[axis] >= plane) return cut;

@@ -3,18 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "cache/schema/grid.h"
+#include "preprocess/partition/grid_triangles.h"
 
 namespace farcell {
-
-// 60 bytes, as kept in scratch files.
-struct GridTriangle {
-  std::array<GridPoint, 3> corners;
-  std::array<uint32_t, 3> colours;  // 0x00BBGGRR
-  std::array<uint32_t, 3> normals;  // octahedral as in GeometryPage; 0 when the model has none
-};
 
 GridBox boxOf(const GridTriangle& triangle);
 // No area on the grid: the corners lie on one line.
@@ -26,17 +19,19 @@ struct GridCorner {
   GridPoint position;
   uint32_t colour;
   uint32_t normal;
+  glm::vec2 coordinates;  // on the polygon's texture
 };
 struct GridPolygon {
   static constexpr int kMaxCorners = 12;
   std::array<GridCorner, kMaxCorners> corners;
   int count = 0;
+  uint32_t texture = kNoTexture;
 };
 
-GridPolygon polygonOf(const GridTriangle& triangle);
+GridPolygon polygonOf(const GridTriangle& triangle, const TriangleTexture& texture);
 GridBox boxOf(const GridPolygon& polygon);
 // Appends the polygon's triangles, without the degenerate ones.
-void appendTriangles(const GridPolygon& polygon, std::vector<GridTriangle>& out);
+void appendTriangles(const GridPolygon& polygon, GridTriangles& out);
 
 // The parts of a polygon on the two sides of coordinate `plane` of `axis`; a part without area has count 0.
 // A polygon inside the plane belongs to `high` alone, so that no two cells draw the same surface. New corners are

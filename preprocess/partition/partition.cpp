@@ -9,6 +9,7 @@
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
 #include "cache/schema/view_frame.h"
+#include "preprocess/partition/grid_triangle.h"
 #include "preprocess/partition/spool.h"
 
 namespace farcell {
@@ -30,7 +31,7 @@ GridPoint middleOf(const Grid& grid, const CellKey& key) {
 
 // What a cell holds while it is being split: triangles no plane has cut yet, and the pieces of the others.
 struct Pieces {
-  std::vector<GridTriangle> whole;
+  GridTriangles whole;
   std::vector<GridPolygon> cut;
   size_t size() const { return whole.size() + cut.size(); }
   size_t triangles() const {
@@ -69,11 +70,12 @@ void cutToOctants(const GridPolygon& polygon, GridPoint middle, Octants& octants
   }
 }
 
-void scatterToOctants(const GridTriangle& triangle, GridPoint middle, Octants& octants) {
+void scatterToOctants(const GridTriangle& triangle, const TriangleTexture& texture, GridPoint middle,
+                      Octants& octants) {
   if (const int octant = octantOf(boxOf(triangle), middle); octant >= 0)
-    octants[static_cast<size_t>(octant)].whole.push_back(triangle);
+    octants[static_cast<size_t>(octant)].whole.add(triangle, texture);
   else
-    cutToOctants(polygonOf(triangle), middle, octants);
+    cutToOctants(polygonOf(triangle, texture), middle, octants);
 }
 
 // ---- scatter: chunks ----
@@ -103,7 +105,11 @@ class ChunkScatter {
   ChunkScatter(const Grid& grid, const ChunkTree& tree, TriangleLists& lists)
       : grid_(grid), tree_(tree), lists_(lists), buffers_(tree.chunks.size()) {}
 
-  Result<> put(const GridTriangle& triangle) { return put(polygonOf(triangle), CellKey{}); }
+  Result<> put(const GridTriangleSpan& portion) {
+    for (size_t i = 0; i < portion.size(); ++i)
+      FARCELL_TRY(put(polygonOf(portion.triangles[i], portion.texture(i)), CellKey{}));
+    return {};
+  }
 
   Result<> finish() {
     for (size_t chunk = 0; chunk < buffers_.size(); ++chunk) FARCELL_TRY(flush(chunk));
@@ -136,7 +142,7 @@ class ChunkScatter {
   const Grid& grid_;
   const ChunkTree& tree_;
   TriangleLists& lists_;
-  std::vector<std::vector<GridTriangle>> buffers_;
+  std::vector<GridTriangles> buffers_;
 };
 
 // ---- split: leaves ----
@@ -151,7 +157,8 @@ class LeafSplitter {
     if (!shouldSplit(key, pieces)) return writeLeaf(key, pieces, leaves);
     const GridPoint middle = middleOf(grid_, key);
     Octants octants;
-    for (const GridTriangle& triangle : pieces.whole) scatterToOctants(triangle, middle, octants);
+    const GridTriangleSpan whole = pieces.whole;
+    for (size_t i = 0; i < whole.size(); ++i) scatterToOctants(whole.triangles[i], whole.texture(i), middle, octants);
     for (const GridPolygon& polygon : pieces.cut) cutToOctants(polygon, middle, octants);
     size_t after = 0;
     for (const Pieces& octant : octants) after += octant.size();
@@ -181,7 +188,7 @@ class LeafSplitter {
     const auto add = [&](GridPoint a, GridPoint b, GridPoint c) {
       areaSteps += 0.5 * glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a)));
     };
-    for (const GridTriangle& triangle : pieces.whole)
+    for (const GridTriangle& triangle : pieces.whole.triangles)
       add(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
     for (const GridPolygon& polygon : pieces.cut)
       for (int i = 2; i < polygon.count; ++i)
@@ -192,11 +199,11 @@ class LeafSplitter {
   }
 
   Result<> writeLeaf(const CellKey& key, const Pieces& pieces, std::vector<Leaf>& leaves) const {
-    std::vector<GridTriangle> triangles = pieces.whole;
+    GridTriangles triangles = pieces.whole;
     for (const GridPolygon& polygon : pieces.cut) appendTriangles(polygon, triangles);
-    if (triangles.empty()) return {};
+    if (triangles.size() == 0) return {};
     Leaf leaf{key, {}, leafLists_.addList()};
-    for (const GridTriangle& triangle : triangles) leaf.content.include(boxOf(triangle));
+    for (const GridTriangle& triangle : triangles.triangles) leaf.content.include(boxOf(triangle));
     leaves.push_back(leaf);
     return leafLists_.append(leaf.list, triangles);
   }
@@ -211,8 +218,8 @@ Result<TriangleLists> scatterToChunks(const Spool& spool, const ChunkTree& tree,
   progress.begin("scatter", spool.triangles.size(0), "triangles");
   FARCELL_ASSIGN(TriangleLists lists, TriangleLists::create(scratchDirectory, tree.chunks.size()));
   ChunkScatter scatter(spool.grid, tree, lists);
-  FARCELL_TRY(spool.triangles.forEachPortion(0, kPortion, [&](std::span<const GridTriangle> portion) -> Result<> {
-    for (const GridTriangle& triangle : portion) FARCELL_TRY(scatter.put(triangle));
+  FARCELL_TRY(spool.triangles.forEachPortion(0, kPortion, [&](const GridTriangleSpan& portion) -> Result<> {
+    FARCELL_TRY(scatter.put(portion));
     progress.advance(portion.size());
     return checkInterrupt();
   }));
@@ -233,7 +240,7 @@ Result<std::vector<Leaf>> splitChunks(const ChunkTree& tree, const TriangleLists
   parallelFor(tree.chunks.size(), threads, [&](size_t chunk, int) {
     const auto work = [&]() -> Result<> {
       FARCELL_TRY(checkInterrupt());
-      FARCELL_ASSIGN(std::vector<GridTriangle> triangles, chunks.read(chunk));
+      FARCELL_ASSIGN(GridTriangles triangles, chunks.read(chunk));
       return splitter.split(tree.chunks[chunk], Pieces{std::move(triangles), {}}, leavesOfChunk[chunk]);
     };
     if (const Result<> done = work(); !done) errors[chunk] = done.error();

@@ -1,11 +1,13 @@
 #include "preprocess/partition/spool.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
 #include "cache/base/interrupt.h"
 #include "cache/schema/model.h"
+#include "preprocess/partition/grid_triangle.h"
 
 namespace farcell {
 namespace {
@@ -44,6 +46,14 @@ GridTriangle onGrid(const InputTriangle& triangle, const Grid& grid, const MeshI
   return result;
 }
 
+// None where a coordinate is not finite.
+TriangleTexture textureOf(const InputTriangle& triangle) {
+  if (triangle.texture == kNoTexture) return {};
+  for (const glm::vec2& at : triangle.textureCoordinates)
+    if (!std::isfinite(at.x) || !std::isfinite(at.y)) return {};
+  return {triangle.texture, triangle.textureCoordinates};
+}
+
 // The histogram cell of a triangle's middle.
 CellKey histogramCell(const GridTriangle& triangle, int gridBits) {
   const int shift = gridBits - static_cast<int>(kHistogramLevel);
@@ -74,13 +84,13 @@ Result<Spool> spoolMesh(MeshReader& mesh, const std::filesystem::path& scratchDi
   for (uint32_t level = 0; level <= kHistogramLevel; ++level) spool.histogram[level].resize(size_t{1} << 3 * level);
 
   progress.begin("spool", bounds.counts.accepted, "triangles");
-  std::vector<GridTriangle> batchOnGrid;
+  GridTriangles batchOnGrid;
   const auto put = [&](std::span<const InputTriangle> batch) -> Result<> {
     batchOnGrid.clear();
     for (const InputTriangle& input : batch) {
       const GridTriangle triangle = onGrid(input, spool.grid, mesh.info());
       if (isDegenerate(triangle)) continue;  // thinner than the grid: its neighbours meet where it was
-      batchOnGrid.push_back(triangle);
+      batchOnGrid.add(triangle, textureOf(input));
       spool.bounds.include(boxOf(triangle));
       ++spool.histogram[kHistogramLevel][mortonCode(histogramCell(triangle, spool.grid.bits))];
     }

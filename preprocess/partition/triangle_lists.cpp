@@ -21,37 +21,46 @@ size_t TriangleLists::addList() {
   return lists_.size() - 1;
 }
 
-Result<> TriangleLists::append(size_t list, std::span<const GridTriangle> triangles) {
-  if (triangles.empty()) return {};
+Result<> TriangleLists::append(size_t list, const GridTriangleSpan& triangles) {
+  if (triangles.size() == 0) return {};
   uint64_t offset = 0;
   {
     const std::lock_guard lock(mutex_);
     offset = endBytes_;
-    endBytes_ += triangles.size_bytes();
-    lists_[list].runs.push_back({offset, triangles.size()});
+    endBytes_ += triangles.triangles.size_bytes() + triangles.textures.size_bytes();
+    lists_[list].runs.push_back({offset, triangles.size(), !triangles.textures.empty()});
     lists_[list].size += triangles.size();
   }
-  return file_.writeAt(offset, std::as_bytes(triangles));
+  FARCELL_TRY(file_.writeAt(offset, std::as_bytes(triangles.triangles)));
+  return file_.writeAt(offset + triangles.triangles.size_bytes(), std::as_bytes(triangles.textures));
 }
 
-Result<std::vector<GridTriangle>> TriangleLists::read(size_t list) const {
-  std::vector<GridTriangle> triangles(lists_[list].size);
-  size_t done = 0;
-  for (const Run& run : lists_[list].runs) {
-    FARCELL_TRY(file_.readAt(run.offsetBytes, std::as_writable_bytes(std::span(triangles).subspan(done, run.size))));
-    done += run.size;
-  }
+Result<> TriangleLists::readRun(const Run& run, uint64_t first, uint64_t count, GridTriangles& out) const {
+  const size_t before = out.size();
+  out.triangles.resize(before + count);
+  FARCELL_TRY(file_.readAt(run.offsetBytes + first * sizeof(GridTriangle),
+                           std::as_writable_bytes(std::span(out.triangles).subspan(before))));
+  if (!run.textured && out.textures.empty()) return {};
+  out.textures.resize(before + count);
+  if (!run.textured) return {};
+  return file_.readAt(run.offsetBytes + run.size * sizeof(GridTriangle) + first * sizeof(TriangleTexture),
+                      std::as_writable_bytes(std::span(out.textures).subspan(before)));
+}
+
+Result<GridTriangles> TriangleLists::read(size_t list) const {
+  GridTriangles triangles;
+  triangles.triangles.reserve(lists_[list].size);
+  for (const Run& run : lists_[list].runs) FARCELL_TRY(readRun(run, 0, run.size, triangles));
   return triangles;
 }
 
 Result<> TriangleLists::forEachPortion(size_t list, size_t portion,
-                                       const std::function<Result<>(std::span<const GridTriangle>)>& sink) const {
-  std::vector<GridTriangle> buffer;
+                                       const std::function<Result<>(const GridTriangleSpan&)>& sink) const {
+  GridTriangles buffer;
   for (const Run& run : lists_[list].runs) {
     for (uint64_t first = 0; first < run.size; first += portion) {
-      buffer.resize(std::min<uint64_t>(portion, run.size - first));
-      FARCELL_TRY(
-          file_.readAt(run.offsetBytes + first * sizeof(GridTriangle), std::as_writable_bytes(std::span(buffer))));
+      buffer.clear();
+      FARCELL_TRY(readRun(run, first, std::min<uint64_t>(portion, run.size - first), buffer));
       FARCELL_TRY(sink(buffer));
     }
   }

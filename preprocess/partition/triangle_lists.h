@@ -5,11 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "cache/base/file.h"
-#include "preprocess/partition/grid_triangle.h"
+#include "preprocess/partition/grid_triangles.h"
 
 namespace farcell {
 
@@ -23,22 +22,26 @@ class TriangleLists {
   size_t addList();
   uint64_t size(size_t list) const { return lists_[list].size; }
   // Written at once, as one run of records: append in portions of thousands.
-  Result<> append(size_t list, std::span<const GridTriangle> triangles);
-  Result<std::vector<GridTriangle>> read(size_t list) const;
+  Result<> append(size_t list, const GridTriangleSpan& triangles);
+  Result<GridTriangles> read(size_t list) const;
   // The same in portions of at most `portion` triangles.
   Result<> forEachPortion(size_t list, size_t portion,
-                          const std::function<Result<>(std::span<const GridTriangle>)>& sink) const;
+                          const std::function<Result<>(const GridTriangleSpan&)>& sink) const;
 
  private:
+  // Triangles, and after them, where any has one, their textures.
   struct Run {
     uint64_t offsetBytes;
     uint64_t size;
+    bool textured;
   };
   struct List {
     uint64_t size = 0;
     std::vector<Run> runs;
   };
   explicit TriangleLists(ScratchFile file) : file_(std::move(file)) {}
+  // Appends triangles [first, first + count) of a run.
+  Result<> readRun(const Run& run, uint64_t first, uint64_t count, GridTriangles& out) const;
 
   ScratchFile file_;
   std::mutex mutex_;

@@ -3,12 +3,19 @@
 #include <array>
 #include <cctype>
 
+#include "preprocess/read/gltf/gltf_reader.h"
 #include "preprocess/read/obj/obj_reader.h"
+#include "preprocess/read/off/off_reader.h"
 #include "preprocess/read/ply/ply_header.h"
 #include "preprocess/read/ply/ply_reader.h"
+#include "preprocess/read/scene/scene_file.h"
+#include "preprocess/read/scene/scene_reader.h"
+#include "preprocess/read/stl/stl_reader.h"
 
 namespace farcell {
 namespace {
+
+using OpenedMesh = Result<std::unique_ptr<MeshReader>>;
 
 std::string lowerExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -16,26 +23,56 @@ std::string lowerExtension(const std::filesystem::path& path) {
   return extension;
 }
 
-struct OtherFormat {
+struct Format {
   const char* extension;
-  const char* name;
+  OpenedMesh (*open)(InputFile);
+  bool (*startsLike)(const InputFile&);  // null: the content alone says too little
 };
-constexpr std::array<OtherFormat, 4> kOtherFormats = {
-    {{".stl", "STL"}, {".off", "OFF"}, {".gltf", "glTF"}, {".glb", "binary glTF"}}};
+constexpr std::array<Format, 6> kFormats = {{{".ply", openPly, startsLikePly},
+                                             {".glb", openGltf, startsLikeGltf},
+                                             {".off", openOff, startsLikeOff},
+                                             {".stl", openStl, hasBinaryStlSize},
+                                             {".obj", openObj, nullptr},
+                                             {".gltf", openGltf, nullptr}}};
+
+OpenedMesh openFile(const std::filesystem::path& path) {
+  FARCELL_ASSIGN(InputFile file, InputFile::open(path));
+  const std::string extension = lowerExtension(path);
+  for (const Format& format : kFormats)
+    if (format.startsLike && format.startsLike(file)) return format.open(std::move(file));
+  for (const Format& format : kFormats)
+    if (extension == format.extension) return format.open(std::move(file));
+  return fail(ErrorKind::unsupported,
+              "{}: expected a mesh, with a name in .ply, .obj, .stl, .off, .gltf or .glb, found '{}'", file.path(),
+              extension);
+}
+
+OpenedMesh openScene(const std::filesystem::path& path) {
+  FARCELL_ASSIGN(Scene scene, readScene(path));
+  std::vector<ScenePart> parts;
+  for (SceneFile& file : scene.files) {
+    FARCELL_ASSIGN(std::unique_ptr<MeshReader> mesh, openFile(file.path));
+    parts.push_back({std::move(mesh), std::move(file.placements)});
+  }
+  return composeMeshes(std::move(parts), {path, scene.up, scene.metresPerUnit});
+}
 
 }  // namespace
 
-Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path) {
-  FARCELL_ASSIGN(InputFile file, InputFile::open(path));
-  const std::string extension = lowerExtension(path);
-  if (startsLikePly(file) || extension == ".ply") return openPly(std::move(file));
-  if (extension == ".obj") return openObj(std::move(file));
-  for (const OtherFormat& other : kOtherFormats)
-    if (extension == other.extension)
-      return fail(ErrorKind::unsupported, "{}: {} files cannot be read yet; expected PLY or OBJ", file.path(),
-                  other.name);
-  return fail(ErrorKind::unsupported, "{}: expected a PLY file or a name ending in .ply or .obj, found '{}'",
-              file.path(), extension);
+OpenedMesh openMesh(const std::filesystem::path& path) {
+  return lowerExtension(path) == ".json" ? openScene(path) : openFile(path);
+}
+
+OpenedMesh openMeshes(std::span<const std::filesystem::path> paths) {
+  if (paths.empty() || paths.size() > kMaxSceneFiles)
+    return fail(ErrorKind::invalidArgument, "expected 1 to {} mesh files, found {}", kMaxSceneFiles, paths.size());
+  if (paths.size() == 1) return openMesh(paths[0]);
+  std::vector<ScenePart> parts;
+  for (const std::filesystem::path& path : paths) {
+    FARCELL_ASSIGN(std::unique_ptr<MeshReader> mesh, openMesh(path));
+    parts.push_back({std::move(mesh), {Placement(Pose{})}});
+  }
+  return composeMeshes(std::move(parts), {});
 }
 
 }  // namespace farcell

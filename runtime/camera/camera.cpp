@@ -114,6 +114,8 @@ Result<> checkNames(const std::vector<Camera>& cameras, const std::string& file)
   return {};
 }
 
+Json vectorJson(glm::dvec3 v) { return {v.x, v.y, v.z}; }
+
 }  // namespace
 
 CameraAxes cameraAxes(const Camera& camera) {
@@ -158,6 +160,17 @@ Result<std::vector<Camera>> parseCameras(const std::string& json, const std::str
 Result<std::vector<Camera>> readCameras(const std::filesystem::path& path) {
   FARCELL_ASSIGN(const std::string text, readTextFile(path, kMaxFileBytes));
   return parseCameras(text, path.string());
+}
+
+std::string camerasJson(const std::vector<Camera>& cameras) {
+  Json list = Json::array();
+  for (const Camera& camera : cameras)
+    list.push_back({{"name", camera.name},
+                    {"position", vectorJson(camera.position)},
+                    {"target", vectorJson(camera.target)},
+                    {"up", vectorJson(camera.up)},
+                    {"fovYDeg", camera.fovYRad * 180 / std::numbers::pi}});
+  return Json{{"cameras", list}}.dump(2) + "\n";
 }
 
 }  // namespace farcell

@@ -30,5 +30,7 @@ CameraAxes cameraAxes(const Camera& camera);
 // required.
 Result<std::vector<Camera>> readCameras(const std::filesystem::path& path);
 Result<std::vector<Camera>> parseCameras(const std::string& json, const std::string& name);
+// Text that parseCameras reads back. REQUIRES: a camera that it would accept.
+std::string camerasJson(const std::vector<Camera>& cameras);
 
 }  // namespace farcell

@@ -16,10 +16,15 @@ class FrameTarget {
   bool matches(int width, int height, int samples, bool withCoverage) const {
     return width == width_ && height == height_ && samples == samples_ && withCoverage == withCoverage_;
   }
+  int width() const { return width_; }
+  int height() const { return height_; }
   // Binds and clears: transparent, infinitely far away.
   void begin() const;
   // Means of the samples of each pixel.
   void resolve() const;
+  // The texture of the means, after resolve; row 0 is the bottom row.
+  GLuint colour() const { return result().colour.name(); }
+  GLuint framebuffer() const { return drawn_.framebuffer.name(); }  // what `begin` binds
   // After resolve; row 0 is the top row. Waits for the GPU.
   std::vector<uint8_t> readColour() const;
   std::vector<uint8_t> readCoverage() const;  // REQUIRES: withCoverage

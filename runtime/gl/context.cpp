@@ -1,86 +1,12 @@
 #include "runtime/gl/context.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include <array>
 #include <cstdio>
-#include <cstring>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace farcell {
 namespace {
-
-#ifdef NDEBUG
-constexpr bool kDebugContext = false;
-#else
-constexpr bool kDebugContext = true;
-#endif
-constexpr int kMaxDevices = 32;
-
-bool lists(const char* extensions, std::string_view name) {
-  if (extensions == nullptr) return false;
-  std::string_view rest = extensions;
-  while (!rest.empty()) {
-    const size_t end = rest.find(' ');
-    if (rest.substr(0, end) == name) return true;
-    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-  }
-  return false;
-}
-
-// A display that may give a context, and how to name it in a message.
-struct Candidate {
-  EGLDisplay display;
-  std::string name;
-};
-
-// Devices of GPU drivers; Mesa lists its software renderer as a device too, which has no DRM node.
-std::vector<Candidate> deviceDisplays(const char* clientExtensions) {
-  std::vector<Candidate> result;
-  if (!lists(clientExtensions, "EGL_EXT_platform_device") ||
-      !(lists(clientExtensions, "EGL_EXT_device_enumeration") || lists(clientExtensions, "EGL_EXT_device_base")))
-    return result;
-  std::array<EGLDeviceEXT, kMaxDevices> devices{};
-  EGLint count = 0;
-  if (!eglQueryDevicesEXT(kMaxDevices, devices.data(), &count)) return result;
-  for (int i = 0; i < count; ++i) {
-    const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-    if (lists(extensions, "EGL_MESA_device_software")) continue;
-    result.push_back(
-        {eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr), fmt::format("device {}", i)});
-  }
-  return result;
-}
-
-std::vector<Candidate> candidates() {
-  const char* clientExtensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  std::vector<Candidate> result = deviceDisplays(clientExtensions);
-  if (lists(clientExtensions, "EGL_MESA_platform_surfaceless"))
-    result.push_back(
-        {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "Mesa surfaceless"});
-  return result;
-}
-
-EGLContext createContext(EGLDisplay display) {
-  constexpr std::array<EGLint, 5> kConfig = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                             EGL_NONE};
-  EGLConfig config = nullptr;
-  EGLint count = 0;
-  if (!eglChooseConfig(display, kConfig.data(), &config, 1, &count) || count == 0) config = EGL_NO_CONFIG_KHR;
-  const std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                            4,
-                                            EGL_CONTEXT_MINOR_VERSION,
-                                            5,
-                                            EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                            EGL_CONTEXT_OPENGL_DEBUG,
-                                            kDebugContext ? EGL_TRUE : EGL_FALSE,
-                                            EGL_NONE};
-  return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
-}
 
 // What GL says while we work: errors and undefined behaviour are ours, and worth a line each.
 void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void*) {
@@ -90,57 +16,14 @@ void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLch
 
 }  // namespace
 
-struct GlContext::Impl {
-  EGLDisplay display = EGL_NO_DISPLAY;
-  EGLContext context = EGL_NO_CONTEXT;
-  std::string renderer;
-
-  Impl() = default;
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  // The display is the process's, shared by all contexts on it: it is not terminated.
-  ~Impl() {
-    if (context == EGL_NO_CONTEXT) return;
-    if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglDestroyContext(display, context);
-  }
-};
-
-GlContext::GlContext(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-GlContext::GlContext(GlContext&&) noexcept = default;
-GlContext& GlContext::operator=(GlContext&&) noexcept = default;
-GlContext::~GlContext() = default;
-
-const std::string& GlContext::renderer() const { return impl_->renderer; }
-
-Result<GlContext> GlContext::createHeadless() {
-  std::string tried;
-  for (const Candidate& candidate : candidates()) {
-    auto impl = std::make_unique<Impl>();
-    impl->display = candidate.display;
-    const char* step = nullptr;
-    if (candidate.display == EGL_NO_DISPLAY || !eglInitialize(candidate.display, nullptr, nullptr)) {
-      step = "eglInitialize";
-    } else if (!eglBindAPI(EGL_OPENGL_API) || (impl->context = createContext(candidate.display)) == EGL_NO_CONTEXT) {
-      step = "a 4.5 core context";
-    } else if (!eglMakeCurrent(candidate.display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl->context)) {
-      step = "eglMakeCurrent";
-    }
-    if (step != nullptr) {
-      tried += fmt::format("; {}: {} failed (EGL error {:#x})", candidate.name, step, eglGetError());
-      continue;
-    }
-    impl->renderer = fmt::format("{}, {}", reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
-                                 reinterpret_cast<const char*>(glGetString(GL_VERSION)));
-    if (kDebugContext) {
-      glEnable(GL_DEBUG_OUTPUT);
-      glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-      glDebugMessageCallback(onMessage, nullptr);
-    }
-    return GlContext(std::move(impl));
-  }
-  if (tried.empty()) tried = "; EGL offers neither a GPU device nor Mesa's surfaceless platform";
-  return fail(ErrorKind::unsupported, "no OpenGL 4.5 core context without a window{}", tried);
+GlContext::GlContext(std::unique_ptr<Platform> platform)
+    : platform_(std::move(platform)),
+      renderer_(fmt::format("{}, {}", reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
+                            reinterpret_cast<const char*>(glGetString(GL_VERSION)))) {
+  if (!kDebugContext) return;
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(onMessage, nullptr);
 }
 
 }  // namespace farcell

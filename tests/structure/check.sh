@@ -13,7 +13,7 @@ sources() {
 }
 texts() {
   find . -path ./.git -prune -o -path './build*' -prune -o -type f \
-    \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.txt' -o -name '*.cmake' -o -name '*.json' -o -name run \) -print |
+    \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.txt' -o -name '*.cmake' -o -name '*.html' -o -name '*.css' -o -name '*.js' -o -name '*.json' -o -name run \) -print |
     cut -c3- | sort
 }
 
@@ -42,7 +42,7 @@ layers() {
       # Models side by side, over what they share.
       add("datasets/ply/", "datasets", 5); add("datasets/random/", "datasets", 5); add("datasets/", "datasets", 6)
       add("preprocess/mesh/", "preprocess", 7); add("preprocess/texture/", "preprocess", 8)
-      split("ply obj stl off gltf", formats, " ")
+      split("ply obj stl off gltf scene", formats, " ")
       for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
@@ -50,10 +50,12 @@ layers() {
       add("runtime/gl/", "runtime", 9)
       add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
       add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
-      # What several programs share (tools/cli, image, report) lies below the programs, which never see each other.
-      add("tools/cli/", "top", 20); add("tools/image/", "top", 20); add("tools/report/", "top", 20)
+      # What several programs share (tools/reference < cli, image, report < options) lies below the programs, which never
+      # see each other.
+      add("tools/reference/", "top", 19); add("tools/cli/", "top", 20); add("tools/image/", "top", 20)
+      add("tools/report/", "top", 20); add("tools/options/", "top", 21)
       split("build info verify render evaluate generate extract view farcell", verbs, " ")
-      for (i in verbs) add("tools/" verbs[i] "/", "top", 21)
+      for (i in verbs) add("tools/" verbs[i] "/", "top", 22)
       add("tests/", "top", 30)
     }
     FNR == 1 {
@@ -79,16 +81,18 @@ heavy() {
 }
 dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
-  heavy OpenImageIO '[<"]OpenImageIO/' '^(tools/image|preprocess/texture|tests/support)/'
+  heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
   heavy tinygltf '[<"]tiny_gltf' '^(preprocess/read/gltf|tests)/'
   heavy draco '[<"]draco/' '^(preprocess/read/gltf|tests)/'
-  heavy GLFW '[<"]GLFW/' '^runtime/gl/'
+  heavy GLFW '[<"]GLFW/' '^runtime/gl/window/'
+  heavy libpng '[<"]png\.h' '^tools/image/png\.cpp'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
+  heavy nlohmann '[<"]nlohmann/' '^(preprocess/read/(scene|gltf)|runtime/camera|tools|tests)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'
   heavy GoogleTest '[<"](gtest|gmock)/' '^tests/'
   heavy 'Google Benchmark' '[<"]benchmark/' '^tests/bench/'

@@ -63,6 +63,8 @@ expect 'dependency: Embree' preprocess/bake/a.cpp '#include <embree3/rtcore.h>\n
 expect 'dependency: OpenImageIO' cache/pack/a.cpp '#include <OpenImageIO/imageio.h>\n'
 expect 'dependency: meshoptimizer' runtime/draw/a.cpp '#include <meshoptimizer.h>\n'
 expect 'dependency: zlib' preprocess/read/a.cpp '#include <libdeflate.h>\n'
+expect 'dependency: GLFW' runtime/gl/a.cpp '#include <GLFW/glfw3.h>\n'
+expect 'dependency: libpng' tools/render/a.cpp '#include <png.h>\n'
 expect 'dependency: EGL' tools/render/a.cpp '#include <epoxy/egl.h>\n'
 expect 'dependency: CLI11' cache/base/a.cpp '#include <CLI/CLI.hpp>\n'
 expect 'size: 501 lines' cache/base/a.cpp "$(printf '//\\n%.0s' $(seq 501))"

@@ -4,9 +4,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <exception>
+#include <memory>
 
 #include "cache/base/interrupt.h"
+#include "tools/reference/reference.h"
 
 namespace farcell {
 namespace {
@@ -16,6 +20,49 @@ constexpr int kExitMisused = 2;
 int report(const CLI::App& app, const Error& error) {
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.message.c_str());
   return error.kind == ErrorKind::invalidArgument ? kExitMisused : kExitFailed;
+}
+
+class HelpFormatter : public CLI::FormatterBase {
+ public:
+  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
+    return helpText(describe(*app));
+  }
+};
+
+void improveHelp(CLI::App& app) {
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.get_help_ptr()->description("print this help and exit");
+  for (CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; })) improveHelp(*sub);
+}
+
+// Today, or the day that SOURCE_DATE_EPOCH says, so that a package can be made again bit for bit.
+std::string referenceDate() {
+  std::time_t seconds = std::time(nullptr);
+  if (const char* text = std::getenv("SOURCE_DATE_EPOCH")) {
+    const std::string_view digits = text;
+    std::from_chars(digits.data(), digits.data() + digits.size(), seconds);
+  }
+  std::tm day{};
+  std::array<char, 16> date{};
+  if (::gmtime_r(&seconds, &day) == nullptr) return "1970-01-01";
+  return {date.data(), std::strftime(date.data(), date.size(), "%Y-%m-%d", &day)};
+}
+
+std::string reference(const CLI::App& app, const std::string& form) {
+  const CommandDescription program = describe(app);
+  if (form == "man") return manualPage(program, FARCELL_VERSION, referenceDate());
+  if (form == "bash") return bashCompletion(program);
+  return form == "zsh" ? zshCompletion(program) : fishCompletion(program);
+}
+
+// What they print takes the place of the work.
+void addStandardOptions(CLI::App& app) {
+  app.set_version_flag("--version", app.get_name() + " " + FARCELL_VERSION, "print the version and exit");
+  app.add_option_function<std::string>(
+         "--print-reference", [&app](const std::string& form) { throw CLI::CallForVersion(reference(app, form), 0); },
+         "print the manual page or a shell's completion and exit; the build makes the installed ones with it")
+      ->group("")
+      ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
 }
 
 uint64_t countFactor(std::string_view suffix) {
@@ -28,7 +75,8 @@ uint64_t countFactor(std::string_view suffix) {
 }  // namespace
 
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<Result<>()>& work) {
-  app.set_version_flag("--version", FARCELL_VERSION);
+  improveHelp(app);
+  addStandardOptions(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

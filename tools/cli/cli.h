@@ -1,4 +1,4 @@
-// What every farcell-<verb> program shares: exit codes, messages, interrupts.
+// What every farcell-<verb> program shares: exit codes, help, messages, interrupts.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,9 @@
 namespace farcell {
 
 // Parses the command line into `app` (already holding its options) and runs `work`.
-// Exit codes: 0 success, 1 failed, 2 misused (also ErrorKind::invalidArgument). Errors go to stderr as "verb: message".
+// --help, --version and the hidden --print-reference man|bash|zsh|fish are added to it (tools/reference); what they
+// print takes the place of the work. `app` is named as its program is, "farcell-build". Exit codes: 0 success, 1
+// failed, 2 misused (also ErrorKind::invalidArgument). Errors go to stderr as "verb: message".
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<Result<>()>& work);
 
 // "5M", "500k", "2G", "1234" -> a count (decimal factors). invalidArgument otherwise.

@@ -11,6 +11,7 @@
 #include "tools/evaluate/plan/auto_cameras.h"
 #include "tools/evaluate/reference/reference.h"
 #include "tools/evaluate/report/names.h"
+#include "tools/evaluate/report/page.h"
 #include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/report.h"
 #include "tools/evaluate/report/summary.h"
@@ -45,10 +46,10 @@ Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Mo
 
 Result<std::optional<MeshReference>> loadMesh(const EvaluateOptions& options, const Directory& directory,
                                               Progress& progress) {
-  if (options.mesh.empty()) return std::nullopt;
+  if (options.meshes.empty()) return std::nullopt;
   progress.begin("read mesh", directory.report.inputTriangles, "triangles");
   FARCELL_ASSIGN(MeshReference mesh,
-                 MeshReference::load(options.mesh, directory, [&](uint64_t count) { progress.advance(count); }));
+                 MeshReference::load(options.meshes, directory, [&](uint64_t count) { progress.advance(count); }));
   return mesh;
 }
 
@@ -75,9 +76,10 @@ Result<> measureCamera(Run& run, size_t index, Progress& progress) {
     FARCELL_TRY(checkInterrupt());
     const MeasureSettings settings{options.timedFrames, options.residentBytes, options.background};
     FARCELL_ASSIGN(Measurement measurement, measureRenderer(run.context, run.pack, camera, plan, reference, settings));
+    measurement.entry.stem = run.stems[index];
     const FrameImage& image = measurement.image;
-    FARCELL_TRY(writeRendererPictures(options.output, run.stems[index], plan.name, reference,
-                                      {image.width, image.height, image.rgba, image.impostorCoverage},
+    const TestImage test{image.width, image.height, image.rgba, image.impostorCoverage};
+    FARCELL_TRY(writeRendererPictures(options.output, {run.stems[index], plan.name, test, measurement.flip}, reference,
                                       options.background));
     entries.push_back(std::move(measurement.entry));
     progress.advance();
@@ -101,6 +103,7 @@ Result<> writeReport(const Run& run) {
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   FARCELL_TRY(writeTextFile(run.options.output / "report.json", text));
   FARCELL_TRY(writeTextFile(run.options.output / "report.csv", reportCsv(run.entries)));
+  FARCELL_TRY(writeTextFile(run.options.output / "index.html", reportPage(json)));
   std::fputs(run.options.json ? text.c_str() : reportTable(run.entries).c_str(), stdout);
   return {};
 }
@@ -115,7 +118,7 @@ ReportFacts reportFacts(const EvaluateOptions& options, const PackFile& pack, co
   facts.timedFrames = options.timedFrames;
   facts.background = options.background;
   facts.glRenderer = context.renderer();
-  facts.referenceKind = options.mesh.empty() ? "pack" : "mesh";
+  facts.referenceKind = options.meshes.empty() ? "pack" : "mesh";
   facts.referenceSamples = options.referenceSamples;
   return facts;
 }

@@ -2,12 +2,13 @@
 // 1. open pack, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
 // 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
 //    (metrics/) and time it;
-// 3. write report.json, report.csv, cameras.json and pictures (report/).
+// 3. write report.json, report.csv, index.html, cameras.json and pictures (report/).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cache/base/result.h"
 #include "runtime/selection/selection.h"
@@ -19,8 +20,8 @@ struct EvaluateOptions {
   std::filesystem::path pack;
   std::filesystem::path cameras;  // a camera file; empty: autoCameras
   int autoCameras = 0;
-  std::filesystem::path mesh;    // empty: the pack's own leaves are the truth
-  std::filesystem::path output;  // directory, made when absent
+  std::vector<std::filesystem::path> meshes;  // empty: the pack's own leaves are the truth
+  std::filesystem::path output;               // directory, made when absent
   std::string renderers;
   int width = 1280;
   int height = 720;

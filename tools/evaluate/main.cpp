@@ -31,20 +31,27 @@ Result<> run(EvaluateOptions& options, const Words& words) {
 }
 
 void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
-  app.add_option("pack", options.pack, "pack file")->required();
+  app.add_option("pack", options.pack, "pack file (.far)")->required();
   auto* cameras = app.add_option("--cameras", options.cameras, "camera file (JSON)");
   app.add_option("--auto-cameras", options.autoCameras,
                  "instead: this many cameras between the baked directions, .25 to 8 diameters away")
       ->check(CLI::Range(1, 1000))
       ->excludes(cameras);
-  app.add_option("--mesh", options.mesh,
-                 "the file the pack was built from, as the truth instead of the pack's own triangles (held in memory)");
-  app.add_option("--size", words.size, "pixels")->capture_default_str();
-  app.add_option("--renderers", options.renderers, "comma-separated; full-1spp and full-4spp are always included")
-      ->default_val(kAllRenderers);
-  app.add_option("--reference-samples", options.referenceSamples, "per pixel: a square number up to 64")
+  app.add_option("--mesh", options.meshes,
+                 "the file the pack was built from, as the truth instead of the pack's own triangles (held in memory); "
+                 "once for each file, in the order of the build")
+      ->allow_extra_args(false);
+  app.add_option("--size", words.size, "width x height in pixels, 1x1 to 16384x16384")
+      ->type_name("WxH")
       ->capture_default_str();
-  app.add_option("--triangle-budget", words.triangleBudget, "triangles a frame of 'auto' may draw")
+  app.add_option("--renderers", options.renderers, "comma-separated; full-1spp and full-4spp are always included")
+      ->type_name("NAMES")
+      ->default_val(kAllRenderers);
+  app.add_option("--reference-samples", options.referenceSamples, "samples per pixel of the reference")
+      ->check(CLI::IsMember({"1", "4", "9", "16", "25", "36", "49", "64"}))
+      ->capture_default_str();
+  app.add_option("--triangle-budget", words.triangleBudget, "triangles a frame of 'auto' may draw, e.g. 500k")
+      ->type_name("COUNT")
       ->capture_default_str();
   app.add_option("--texel-pixels", options.selection.texelPixels,
                  "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
@@ -53,12 +60,18 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--frames", options.timedFrames, "warm frames that are timed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--background", words.background, "R,G,B of 0-255 behind every picture")->capture_default_str();
+  app.add_option("--background", words.background, "colour behind every picture, 0 to 255 each")
+      ->type_name("R,G,B")
+      ->capture_default_str();
   app.add_option("--resident-mib", words.residentMib, "how much of the pack may stay on the GPU, MiB")
+      ->type_name("MIB")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
   app.add_flag("--json", options.json, "print report.json instead of a table");
-  app.add_option("-o,--output", options.output, "directory of the report, made when absent")->required();
+  app.add_option("-o,--output", options.output,
+                 "directory of the report, made when absent; its index.html opens in a browser")
+      ->required()
+      ->type_name("DIR");
 }
 
 }  // namespace
@@ -67,8 +80,15 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
 int main(int argc, char** argv) {
   farcell::EvaluateOptions options;
   farcell::Words words;
-  CLI::App app("Measures a pack's pictures against its full geometry: error and run time of every renderer.",
-               "farcell-evaluate");
+  CLI::App app(
+      "Measures a pack's pictures against its full geometry.\n"
+      "For each camera a reference is ray traced; each renderer's picture is compared with it and timed. The report is "
+      "report.json, report.csv and pictures of the differences.",
+      "farcell-evaluate");
+  app.footer(
+      "Examples:\n"
+      "  farcell evaluate city.far --cameras cams.json -o report/\n"
+      "  farcell evaluate city.far --auto-cameras 8 --renderers flat,A,auto --size 640x360 -o report/\n");
   farcell::addOptions(app, options, words);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options, words); });
 }

@@ -46,7 +46,7 @@ Result<Measurement> measureRenderer(GlContext& context, const PackFile& pack, co
   entry.impostors = last.impostors;
   entry.texels = last.texels;
   const TestImage test{result.image.width, result.image.height, result.image.rgba, result.image.impostorCoverage};
-  entry.metrics = measure(reference, test, settings.background);
+  entry.metrics = measure(reference, test, settings.background, &result.flip);
   return result;
 }
 

@@ -1,6 +1,8 @@
 // One renderer's picture from one camera: timed, then measured.
 #pragma once
 
+#include <vector>
+
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
 #include "runtime/renderer.h"
@@ -9,8 +11,9 @@
 namespace farcell {
 
 struct Measurement {
-  Entry entry;
+  Entry entry;  // without the stem of its camera
   FrameImage image;
+  std::vector<float> flip;  // flipErrors(), 1 a pixel
 };
 
 struct MeasureSettings {

@@ -23,14 +23,18 @@ struct ExtractOptions {
 void addOptions(CLI::App& app, ExtractOptions& options) {
   app.add_option("pack", options.pack, "pack file (.far)")->required();
   app.add_option("--cell", options.cell, "a cell's number, its level/x/y/z, or all that have views")
+      ->type_name("CELL")
       ->capture_default_str();
-  app.add_option("--views", options.views, "all, or numbers and ranges: 0,7,12-20")->capture_default_str();
+  app.add_option("--views", options.views, "all, or numbers and ranges: 0,7,12-20")
+      ->type_name("LIST")
+      ->capture_default_str();
   app.add_option("--channel", options.channel,
-                 "colour (RGBA), coverage, depth (0 unknown, 255 nearest) or normal (of packs that have them)")
+                 "colour: with coverage as alpha; depth: 0 unknown, 255 nearest; normal: of packs that have them")
+      ->check(CLI::IsMember({"colour", "coverage", "depth", "normal"}))
       ->capture_default_str();
   app.add_flag("--full", options.full, "the whole square of each view, not only the part that holds anything");
   app.add_flag("--atlas", options.atlas, "all views of a cell in one picture, with a JSON file that names its tiles");
-  app.add_flag("--json", options.json, "what was written, as JSON on stdout");
+  app.add_flag("--json", options.json, "print what was written as JSON on stdout");
   app.add_option("-o,--output", options.output, "directory to write to; made where it is missing")->required();
 }
 
@@ -59,7 +63,14 @@ Result<> run(const ExtractOptions& options) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes the views of a pack as PNG pictures.", "farcell-extract");
+  CLI::App app(
+      "Writes the views of a pack as PNG pictures.\n"
+      "One picture a view, or one a cell with --atlas.",
+      "farcell-extract");
+  app.footer(
+      "Examples:\n"
+      "  farcell extract city.far --cell 0 --atlas -o views/\n"
+      "  farcell extract city.far --cell 3/1/4/2 --views 0-11 --channel depth --full -o views/\n");
   farcell::ExtractOptions options;
   farcell::addOptions(app, options);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options); });

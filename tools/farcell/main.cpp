@@ -2,6 +2,7 @@
 // need them.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -11,6 +12,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "tools/cli/cli.h"
+
+namespace farcell {
 namespace {
 
 struct Verb {
@@ -23,15 +27,13 @@ constexpr std::array kVerbs = {
     Verb{"info", "say what a pack or a mesh file holds"},
     Verb{"verify", "check every byte of a pack"},
     Verb{"render", "draw a picture of a pack"},
+    Verb{"view", "walk through a pack in a window"},
     Verb{"extract", "write the views of a pack as pictures"},
     Verb{"evaluate", "measure pictures of a pack against the full geometry"},
 };
 
-int usage(std::FILE* out, int code) {
-  std::fputs("usage: farcell <verb> [options]   (farcell <verb> --help for its options)\n\nverbs:\n", out);
-  for (const Verb& verb : kVerbs)
-    std::fprintf(out, "  %-10s %s\n", std::string(verb.name).c_str(), std::string(verb.purpose).c_str());
-  return code;
+bool isVerb(std::string_view word) {
+  return std::any_of(kVerbs.begin(), kVerbs.end(), [&](const Verb& verb) { return verb.name == word; });
 }
 
 int runVerb(const std::string& verb, char** arguments) {
@@ -45,14 +47,45 @@ int runVerb(const std::string& verb, char** arguments) {
   return 1;
 }
 
+// The verbs as commands that are programs: the one list behind --help, the manual page and completion.
+void addVerbs(CLI::App& app) {
+  for (const Verb& verb : kVerbs)
+    app.add_subcommand(std::string(verb.name), std::string(verb.purpose))->prefix_command();
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  farcell generate city --triangles 5M --seed 1 -o city.ply\n"
+      "  farcell build city.ply -o city.far\n"
+      "  farcell verify city.far\n"
+      "  farcell render city.far --size 1280x720 -o city.png\n"
+      "  farcell evaluate city.far --auto-cameras 2 -o report/\n"
+      "Files:\n"
+      "  *.ply, *.obj    models\n"
+      "  *.far           packs: the cells of a model, their triangles and impostors\n"
+      "  cameras.json    {\"cameras\": [{\"name\": \"a\", \"position\": [0, -9, 5],\n"
+      "                    \"target\": [0, 0, 0], \"up\": [0, 0, 1], \"fovYDeg\": 40}]}\n"
+      "                  in the model's own coordinates\n"
+      "Environment:\n"
+      "  LIBGL_ALWAYS_SOFTWARE=1   Mesa draws with the processor, not the GPU\n");
+}
+
 }  // namespace
+}  // namespace farcell
 
 int main(int argc, char** argv) {
-  const std::string_view word = argc > 1 ? argv[1] : "";
-  if (word == "--help" || word == "-h" || word == "help") return usage(stdout, 0);
-  if (word == "--version") return std::printf("farcell %s\n", FARCELL_VERSION) < 0;
-  for (const Verb& verb : kVerbs)
-    if (verb.name == word) return runVerb(std::string(word), argv + 1);
-  if (!word.empty()) std::fprintf(stderr, "farcell: unknown verb '%s'\n", argv[1]);
-  return usage(stderr, 2);
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (farcell::isVerb(word)) return farcell::runVerb(word, argv + 1);
+  CLI::App app(
+      "Walks through models larger than memory, with the error of every picture known.\n"
+      "A model is built into a pack once; pictures are drawn from the pack. Each verb is a program of its own, whose "
+      "options `farcell <verb> --help` tells.",
+      "farcell");
+  farcell::addVerbs(app);
+  app.failure_message([&](const CLI::App* self, const CLI::Error& error) {
+    if (error.get_name() == "ValidationError") return "farcell: " + std::string(error.what()) + "\n";
+    return (word.empty() ? word : "farcell: unknown verb '" + word + "'\n") + self->help();
+  });
+  std::string help = "--help";
+  if (word == "help") argv[1] = help.data();
+  return farcell::runProgram(app, argc, argv, [] { return farcell::Result<>{}; });
 }

@@ -30,7 +30,10 @@ Result<> generate(const Options& options, Result<nlohmann::ordered_json> (*make)
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes models to try", "farcell-generate");
+  CLI::App app(
+      "Makes models to try the other programs on.\n"
+      "The same options give the same bytes, with any number of threads.",
+      "farcell-generate");
   farcell::GenerateOptions cityOptions;
   farcell::StatueOptions statueOptions;
   const CLI::App* city = farcell::addCityVerb(app, cityOptions);

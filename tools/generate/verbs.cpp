@@ -34,17 +34,21 @@ Result<BaseMesh> readBase(const std::string& path) {
 }  // namespace
 
 void addSharedOptions(CLI::App& verb, GenerateOptions& options) {
-  verb.add_option("--threads", options.threads, "Threads; 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
-  verb.add_option("-o,--output", options.output, "The file to write")->required();
-  verb.add_flag("--json", options.json, "Counts on stdout as JSON");
+  verb.add_option("--threads", options.threads, "worker threads; 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
+  verb.add_option("-o,--output", options.output, "mesh file to write (.ply)")->required();
+  verb.add_flag("--json", options.json, "print counts as JSON on stdout");
 }
 
 CLI::App* addCityVerb(CLI::App& app, GenerateOptions& options) {
-  CLI::App* city = app.add_subcommand("city", "A procedural city, as binary PLY");
-  city->add_option("--triangles", options.triangles, "How many, e.g. 500k, 5M, 1G; at least 2k; within 5 % from 10k on")
+  CLI::App* city = app.add_subcommand("city", "A procedural city, as binary PLY.");
+  city->add_option("--triangles", options.triangles, "how many, e.g. 500k, 5M, 1G; at least 2k; within 5 % from 10k on")
+      ->type_name("COUNT")
       ->capture_default_str();
-  city->add_option("--seed", options.seed, "Another number, another city")->capture_default_str();
+  city->add_option("--seed", options.seed, "another number, another city")->capture_default_str();
   addSharedOptions(*city, options);
+  city->footer(
+      "Examples:\n"
+      "  farcell generate city --triangles 2M --seed 7 -o city.ply\n");
   return city;
 }
 
@@ -52,20 +56,25 @@ CLI::App* addStatueVerb(CLI::App& app, StatueOptions& options) {
   const StatueSettings defaults;
   options.amplitude = defaults.amplitude;
   options.roughness = defaults.roughness;
-  CLI::App* statue = app.add_subcommand("statue", "A fractal statue, or a scan made finer, as binary PLY");
+  CLI::App* statue = app.add_subcommand("statue", "A fractal statue, or a scan made finer, as binary PLY.");
   statue
       ->add_option("--triangles", options.triangles,
-                   "How many, e.g. 500k, 5M, 1G; within 5 %; at least 5k, or the mesh's")
+                   "how many, e.g. 500k, 5M, 1G; within 5 %; at least 5k, or the mesh's")
+      ->type_name("COUNT")
       ->capture_default_str();
-  statue->add_option("--from", options.from, "A mesh file to make finer; without it: a figure of our own");
-  statue->add_option("--amplitude", options.amplitude, "Most that the relief stands out, in diagonals of the model")
+  statue->add_option("--from", options.from, "mesh file to make finer; without it: a figure of our own");
+  statue->add_option("--amplitude", options.amplitude, "most that the relief stands out, in diagonals of the model")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.1));
-  statue->add_option("--roughness", options.roughness, "Height of each finer layer of relief against the one before")
+  statue->add_option("--roughness", options.roughness, "height of each finer layer of relief against the one before")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.9));
-  statue->add_option("--seed", options.seed, "Another number, another relief and face")->capture_default_str();
+  statue->add_option("--seed", options.seed, "another number, another relief and face")->capture_default_str();
   addSharedOptions(*statue, options);
+  statue->footer(
+      "Examples:\n"
+      "  farcell generate statue --triangles 2M -o statue.ply\n"
+      "  farcell generate statue --from scan.obj --triangles 20M -o fine.ply\n");
   return statue;
 }
 

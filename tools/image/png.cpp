@@ -1,51 +1,33 @@
 #include "tools/image/png.h"
 
-#include <OpenImageIO/imageio.h>
+#include <png.h>
 
-#include <exception>
 #include <system_error>
 
 #include "cache/base/check.h"
+#include "cache/base/file.h"
 
 namespace farcell {
 namespace {
 
-constexpr int kMaxEdge = 1 << 20;
+constexpr uint32_t kMaxEdge = 1 << 20;
 
-Result<> writeWithOiio(const std::filesystem::path& path, const Picture& picture) {
-  auto output = OIIO::ImageOutput::create("png");
-  if (!output) return fail(ErrorKind::unsupported, "{}: no PNG writer: {}", path.string(), OIIO::geterror());
-  OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  if (!output->open(path.string(), spec) || !output->write_image(OIIO::TypeDesc::UINT8, picture.pixels.data()) ||
-      !output->close())
-    return fail(ErrorKind::io, "{}: {}", path.string(), output->geterror());
-  return {};
+// libpng's simplified interface: its errors are values, nothing jumps.
+struct PngImage {
+  png_image image{};
+  PngImage() { image.version = PNG_IMAGE_VERSION; }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+  ~PngImage() { png_image_free(&image); }
+};
+
+uint32_t formatOf(int channels) {
+  return channels == 1 ? PNG_FORMAT_GRAY : channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
 }
 
-Result<Picture> readWithOiio(const std::filesystem::path& path, uint64_t maxPixels) {
-  // The PNG plug-in only: the content decides what a file is, and no other parser sees it.
-  auto input = OIIO::ImageInput::create("png");
-  if (!input) return fail(ErrorKind::unsupported, "{}: no PNG reader: {}", path.string(), OIIO::geterror());
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  OIIO::ImageSpec spec;
-  if (!input->open(path.string(), spec, config))
-    return fail(ErrorKind::corrupt, "{}: not a PNG file: {}", path.string(), input->geterror());
-  if (spec.width < 1 || spec.height < 1 || spec.width > kMaxEdge || spec.height > kMaxEdge || spec.depth != 1)
-    return fail(ErrorKind::corrupt, "{}: size {} x {} is none", path.string(), spec.width, spec.height);
-  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
-  if (pixels > maxPixels)
-    return fail(ErrorKind::exhausted, "{}: {} x {} pixels, at most {} are allowed", path.string(), spec.width,
-                spec.height, maxPixels);
-  if (spec.nchannels != 1 && spec.nchannels != 3 && spec.nchannels != 4)
-    return fail(ErrorKind::unsupported, "{}: expected 1, 3 or 4 channels, found {}", path.string(), spec.nchannels);
-  Picture picture{spec.width, spec.height, spec.nchannels, {}};
-  picture.pixels.resize(pixels * static_cast<uint64_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, picture.pixels.data()))
-    return fail(ErrorKind::corrupt, "{}: {}", path.string(), input->geterror());
-  return picture;
+int channelsFor(uint32_t format) {
+  if ((format & PNG_FORMAT_FLAG_ALPHA) != 0) return 4;
+  return (format & PNG_FORMAT_FLAG_COLOR) != 0 ? 3 : 1;
 }
 
 }  // namespace
@@ -55,11 +37,17 @@ Result<> writePng(const std::filesystem::path& path, const Picture& picture) {
   FARCELL_CHECK(picture.channels == 1 || picture.channels == 3 || picture.channels == 4);
   FARCELL_CHECK_EQ(picture.pixels.size(), static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height) *
                                               static_cast<size_t>(picture.channels));
-  try {
-    return writeWithOiio(path, picture);
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::io, "{}: {}", path.string(), error.what());
-  }
+  FARCELL_ASSIGN(OutputFile file, OutputFile::create(path));
+  PngImage png;
+  png.image.width = static_cast<uint32_t>(picture.width);
+  png.image.height = static_cast<uint32_t>(picture.height);
+  png.image.format = formatOf(picture.channels);
+  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(png.image));
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&png.image, bytes.data(), &size, 0, picture.pixels.data(), 0, nullptr))
+    return fail(ErrorKind::io, "{}: {}", path.string(), png.image.message);
+  FARCELL_TRY(file.append(std::span(bytes).first(size)));
+  return file.commit();
 }
 
 Result<Picture> readPng(const std::filesystem::path& path, uint64_t maxPixels) {
@@ -69,11 +57,19 @@ Result<Picture> readPng(const std::filesystem::path& path, uint64_t maxPixels) {
     return fail(ErrorKind::notFound, "{}: no such file", path.string());
   if (status.type() != std::filesystem::file_type::regular)
     return fail(ErrorKind::io, "{}: not a regular file", path.string());
-  try {
-    return readWithOiio(path, maxPixels);
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::corrupt, "{}: {}", path.string(), error.what());
-  }
+  PngImage png;
+  if (!png_image_begin_read_from_file(&png.image, path.c_str()))
+    return fail(ErrorKind::corrupt, "{}: not a PNG file: {}", path.string(), png.image.message);
+  const uint32_t width = png.image.width, height = png.image.height;
+  if (width > kMaxEdge || height > kMaxEdge || uint64_t{width} * height > maxPixels)
+    return fail(ErrorKind::exhausted, "{}: {} x {} pixels, at most {} are allowed", path.string(), width, height,
+                maxPixels);
+  Picture picture{static_cast<int>(width), static_cast<int>(height), channelsFor(png.image.format), {}};
+  png.image.format = formatOf(picture.channels);
+  picture.pixels.resize(PNG_IMAGE_SIZE(png.image));
+  if (!png_image_finish_read(&png.image, nullptr, picture.pixels.data(), 0, nullptr))
+    return fail(ErrorKind::corrupt, "{}: {}", path.string(), png.image.message);
+  return picture;
 }
 
 }  // namespace farcell

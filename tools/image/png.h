@@ -1,4 +1,4 @@
-// Pictures on disk. The one place of the tools that knows OpenImageIO.
+// Pictures on disk, by libpng: it maps nothing else but zlib, so that the viewer may write pictures too.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Picture {
 };
 
 Result<> writePng(const std::filesystem::path& path, const Picture& picture);
-// PNG only; refuses pictures larger than maxPixels by their header.
+// As grey, RGB or RGBA of 8 bits, whatever the file holds; pictures larger than maxPixels are refused by their header.
 Result<Picture> readPng(const std::filesystem::path& path, uint64_t maxPixels);
 
 }  // namespace farcell

@@ -16,6 +16,8 @@ Json pointJson(glm::dvec3 p) { return Json::array({p.x, p.y, p.z}); }
 
 Json boundsJson(glm::dvec3 min, glm::dvec3 max) { return {{"min", pointJson(min)}, {"max", pointJson(max)}}; }
 
+std::string upName(UpAxis up) { return std::string(1, "xyz"[static_cast<uint32_t>(up)]); }
+
 Json modelJson(const Directory& directory) {
   const Model& model = directory.model;
   const Grid& grid = model.grid;
@@ -26,7 +28,7 @@ Json modelJson(const Directory& directory) {
   json["bounds"] = model.bounds.empty()
                        ? Json()
                        : boundsJson(grid.worldFromGrid(model.bounds.min), grid.worldFromGrid(model.bounds.max));
-  json["up"] = std::string(1, "xyz"[static_cast<uint32_t>(model.settings.up)]);
+  json["up"] = upName(model.settings.up);
   json["metresPerUnit"] = model.settings.metresPerUnit;
   json["hasColours"] = model.hasColours;
   json["hasNormals"] = model.hasNormals;
@@ -121,12 +123,18 @@ Result<Json> meshInfoJson(MeshReader& mesh) {
   }));
   Json skipped = Json::object();
   for (const auto& [reason, count] : counts.skipped) skipped[reason] = count;
+  const MeshInfo& info = mesh.info();
   Json json;
-  json["input"] = {{"triangles", counts.accepted}, {"vertices", mesh.info().vertices}, {"skipped", skipped}};
-  json["declaredTriangles"] = mesh.info().declaredTriangles;
+  json["format"] = info.format;
+  json["files"] = mesh.files().size();
+  json["input"] = {{"triangles", counts.accepted}, {"vertices", info.vertices}, {"skipped", skipped}};
+  json["declaredTriangles"] = info.declaredTriangles;
   json["bounds"] = counts.accepted == 0 ? Json() : boundsJson(min, max);
-  json["hasColours"] = mesh.info().hasColours;
-  json["hasNormals"] = mesh.info().hasNormals;
+  json["up"] = upName(info.up);
+  json["metresPerUnit"] = info.metresPerUnit;
+  json["hasColours"] = info.hasColours;
+  json["hasNormals"] = info.hasNormals;
+  json["textures"] = mesh.textures().size();
   return json;
 }
 

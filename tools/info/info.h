@@ -15,7 +15,8 @@ namespace farcell {
 // Bounds are in model units, world axes; null when the pack holds no triangle.
 nlohmann::ordered_json packInfoJson(const PackFile& pack);
 
-// input{triangles, vertices, skipped}, declaredTriangles, bounds, hasColours, hasNormals. Reads the whole mesh.
+// format, files (their number), input{triangles, vertices, skipped}, declaredTriangles, bounds, up, metresPerUnit,
+// hasColours, hasNormals, textures (their number). Reads the whole mesh.
 Result<nlohmann::ordered_json> meshInfoJson(MeshReader& mesh);
 
 // Nested keys as indented lines: "  key   value".

@@ -5,25 +5,26 @@
 
 #include "cache/base/file.h"
 #include "cache/base/interrupt.h"
-#include "runtime/camera/overview.h"
 #include "tools/cli/cli.h"
 #include "tools/image/png.h"
-#include "tools/render/options.h"
+#include "tools/options/draw_options.h"
 
 namespace farcell {
 namespace {
 
-Result<Camera> chooseCamera(const RenderOptions& options, const Model& model, const ImageSize& size) {
-  if (options.cameras.empty()) {
-    const glm::dvec3 min = model.grid.worldFromGrid(model.bounds.min);
-    const glm::dvec3 max = model.grid.worldFromGrid(model.bounds.max);
-    return overviewCamera(min, max, upVector(model.settings.up), static_cast<double>(size.width) / size.height);
-  }
-  FARCELL_ASSIGN(const std::vector<Camera> cameras, readCameras(options.cameras));
-  if (options.cameraName.empty()) return cameras.front();
-  for (const Camera& camera : cameras)
-    if (camera.name == options.cameraName) return camera;
-  return fail(ErrorKind::invalidArgument, "{}: no camera is named '{}'", options.cameras, options.cameraName);
+struct RenderOptions : DrawOptions {
+  int repeat = 1;
+  std::string output;
+  std::string statsFile;  // empty: none; "-": stdout
+};
+
+void addRenderOptions(CLI::App& app, RenderOptions& options) {
+  addDrawOptions(app, options, "179,204,230");
+  app.add_option("--repeat", options.repeat, "draw this often and report each frame; the first one reads the pack")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--json", options.statsFile, "write figures as JSON to this file, - for stdout");
+  app.add_option("-o,--output", options.output, "picture to write (.png)");
 }
 
 nlohmann::json frameJson(const FrameStats& stats) {
@@ -50,10 +51,12 @@ Result<> writeFigures(const std::string& path, const std::string& renderer, cons
 }
 
 Result<> run(const RenderOptions& options) {
-  FARCELL_ASSIGN(const RenderPlan plan, planOf(options));
+  FARCELL_ASSIGN(const DrawPlan plan, planOf(options));
+  if (options.output.empty() && options.statsFile.empty())
+    return fail(ErrorKind::invalidArgument, "nothing to do: neither -o nor --json is given");
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   FARCELL_ASSIGN(const Camera camera,
-                 chooseCamera(options, pack.directory().model, {plan.settings.width, plan.settings.height}));
+                 chooseCamera(options, pack.directory().model, plan.settings.width, plan.settings.height));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
   FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, plan.residentBytes));
   std::vector<FrameStats> frames;
@@ -65,7 +68,8 @@ Result<> run(const RenderOptions& options) {
   if (!options.output.empty()) {
     FrameImage image;
     FARCELL_TRY(renderer.draw(camera, plan.settings, &image));
-    FARCELL_TRY(writePng(options.output, {image.width, image.height, 3, overBackground(image.rgba, plan.background)}));
+    const auto behind = plan.background.value_or(kDefaultBackground);
+    FARCELL_TRY(writePng(options.output, {image.width, image.height, 3, overBackground(image.rgba, behind)}));
   }
   if (!options.statsFile.empty()) {
     FARCELL_TRY(writeFigures(options.statsFile, context.renderer(), frames));
@@ -81,7 +85,15 @@ Result<> run(const RenderOptions& options) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws one picture of a pack.", "farcell-render");
+  CLI::App app(
+      "Draws one picture of a pack.\n"
+      "Near cells are drawn as triangles, within a budget, the rest as impostors. OpenGL 4.5 is needed, of a GPU or of "
+      "Mesa's software renderer; no window is.",
+      "farcell-render");
+  app.footer(
+      "Examples:\n"
+      "  farcell render city.far --size 1280x720 -o city.png\n"
+      "  farcell render city.far --camera cams.json --camera-name street --repeat 5 --json -\n");
   farcell::RenderOptions options;
   farcell::addRenderOptions(app, options);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options); });

@@ -61,7 +61,14 @@ Result<> run(const std::string& path, size_t maxFindings, bool asJson) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  CLI::App app("Checks every byte of a pack", "farcell-verify");
+  CLI::App app(
+      "Checks every byte of a pack.\n"
+      "Findings go to stderr, a line each, with the place in the file; the exit code is 1 when there are any.",
+      "farcell-verify");
+  app.footer(
+      "Examples:\n"
+      "  farcell verify city.far\n"
+      "  farcell verify city.far --json --max-findings 1\n");
   std::string path;
   size_t maxFindings = 100;
   bool asJson = false;
@@ -69,6 +76,6 @@ int main(int argc, char** argv) {
   app.add_option("--max-findings", maxFindings, "stop after this many findings")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  app.add_flag("--json", asJson, "print JSON");
+  app.add_flag("--json", asJson, "print JSON on stdout");
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(path, maxFindings, asJson); });
 }

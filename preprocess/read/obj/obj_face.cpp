@@ -27,6 +27,7 @@ bool parseObjCorner(std::string_view word, const ObjCounts& counts, ObjCorner& c
   corner.position = resolved(index, counts.positions);
   const std::string_view texture = takeUntilSlash(word);
   if (!texture.empty() && !parseInteger(texture, index)) return false;
+  corner.coordinates = texture.empty() ? UINT64_MAX : resolved(index, counts.coordinates);
   corner.hasNormal = !word.empty();
   if (corner.hasNormal) {
     if (!parseInteger(word, index)) return false;

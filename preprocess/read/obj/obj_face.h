@@ -6,15 +6,17 @@
 
 namespace farcell {
 
-// How many vertices and normals the file has given so far: what relative indices count back from.
+// How many vertices, texture coordinates and normals the file has given so far: what relative indices count back from.
 struct ObjCounts {
   uint64_t positions = 0;
+  uint64_t coordinates = 0;
   uint64_t normals = 0;
 };
 
 // Indices from 0. What cannot be one (0, or too far back, in the file) is above any count.
 struct ObjCorner {
   uint64_t position = 0;
+  uint64_t coordinates = UINT64_MAX;  // as well where there are none
   uint64_t normal = 0;
   bool hasNormal = false;
 };

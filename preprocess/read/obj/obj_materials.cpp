@@ -1,7 +1,7 @@
 #include "preprocess/read/obj/obj_materials.h"
 
-#include <algorithm>
 #include <array>
+#include <system_error>
 
 #include "cache/base/file.h"
 #include "preprocess/mesh/number_text.h"
@@ -14,10 +14,6 @@ namespace {
 constexpr size_t kMaxLibraries = 256;
 constexpr uint64_t kMaxLibraryBytes = uint64_t{64} << 20;
 
-bool staysInside(const std::filesystem::path& name) {
-  return !name.empty() && name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
-}
-
 bool parseKd(std::string_view rest, uint32_t& colour) {
   std::array<double, 3> channels{};
   for (double& channel : channels)
@@ -29,20 +25,26 @@ bool parseKd(std::string_view rest, uint32_t& colour) {
 }  // namespace
 
 bool ObjMaterials::addLibrary(std::string_view name) {
-  const std::filesystem::path path(name);
+  const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
   if (!staysInside(path)) return false;
-  if (libraries_.contains(std::string(name))) return true;
+  if (libraries_.contains(path.string())) return true;
   if (libraries_.size() >= kMaxLibraries) return false;
   const Result<InputFile> file = InputFile::open(directory_ / path);
   if (!file || file->sizeBytes() > kMaxLibraryBytes) return false;
-  libraries_.emplace(name);
+  libraries_.insert(path.string());
+  files_.push_back(directory_ / path);
   ObjLines lines(*file);
   std::string material;
   for (std::string_view line; lines.next(line);) {
     const std::string_view keyword = takeWord(line);
     uint32_t colour = 0;
     if (keyword == "newmtl") material = trimmed(line);
-    if (keyword == "Kd" && parseKd(line, colour)) colours_[material] = colour;
+    if (keyword == "Kd" && parseKd(line, colour)) materials_[material].colour = colour;
+    if (keyword == "map_Kd") {
+      ObjMaterial& textured = materials_[material];
+      textured.map = parseObjMap(line);
+      if (textured.map) textured.mapFile = mapFile(files_.back(), *textured.map);
+    }
   }
   return true;
 }
@@ -52,9 +54,16 @@ void ObjMaterials::addLibraries(std::string_view names) {
   for (std::string_view word = takeWord(names); !word.empty(); word = takeWord(names)) addLibrary(word);
 }
 
-const uint32_t* ObjMaterials::find(std::string_view material) const {
-  const auto found = colours_.find(std::string(material));
-  return found == colours_.end() ? nullptr : &found->second;
+std::filesystem::path ObjMaterials::mapFile(const std::filesystem::path& library, const ObjMap& map) const {
+  const std::filesystem::path beside = library.parent_path() / map.name;
+  std::error_code code;
+  return std::filesystem::exists(beside, code) ? beside : directory_ / map.name;
+}
+
+const ObjMaterial* ObjMaterials::find(const std::string& material) const {
+  const auto found = materials_.find(material);
+  if (found == materials_.end() || (!found->second.colour && !found->second.map)) return nullptr;
+  return &found->second;
 }
 
 }  // namespace farcell

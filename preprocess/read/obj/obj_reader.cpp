@@ -7,6 +7,7 @@
 #include "preprocess/mesh/number_text.h"
 #include "preprocess/mesh/triangle_batch.h"
 #include "preprocess/read/obj/obj_face.h"
+#include "preprocess/read/obj/obj_looks.h"
 #include "preprocess/read/obj/obj_materials.h"
 #include "preprocess/read/obj/obj_text.h"
 
@@ -16,6 +17,7 @@ namespace {
 // Everything but the faces, and what the faces say about themselves as a whole.
 struct ObjContents {
   Vertices vertices;
+  std::vector<glm::vec2> coordinates;             // of textures
   std::vector<std::string> libraries;             // rests of mtllib statements
   std::unordered_set<std::string> usedMaterials;  // by at least one face
   uint64_t triangles = 0;
@@ -34,6 +36,7 @@ class ObjScan {
       const std::string_view keyword = takeWord(line);
       anything |= keyword == "v" || keyword == "f";
       if (keyword == "v") FARCELL_TRY(addVertex(line));
+      if (keyword == "vt") FARCELL_TRY(addCoordinates(line));
       if (keyword == "vn") FARCELL_TRY(addNormal(line));
       if (keyword == "f") FARCELL_TRY(countFace(line));
       if (keyword == "usemtl") {
@@ -50,6 +53,7 @@ class ObjScan {
 
  private:
   Result<> addVertex(std::string_view rest);
+  Result<> addCoordinates(std::string_view rest);
   Result<> addNormal(std::string_view rest);
   Result<> countFace(std::string_view rest);
 
@@ -76,6 +80,15 @@ Result<> ObjScan::addVertex(std::string_view rest) {
   return {};
 }
 
+Result<> ObjScan::addCoordinates(std::string_view rest) {
+  glm::vec2 at(0);  // of a curve there is u alone
+  const std::string_view first = takeWord(rest), second = takeWord(rest);
+  if (!parseNumber(first, at.x)) return lines_.bad("one to three numbers after 'vt'", first);
+  if (!second.empty() && !parseNumber(second, at.y)) return lines_.bad("one to three numbers after 'vt'", second);
+  contents_.coordinates.push_back(at);
+  return {};
+}
+
 Result<> ObjScan::addNormal(std::string_view rest) {
   std::array<float, 3> values{};
   for (float& value : values) {
@@ -87,7 +100,8 @@ Result<> ObjScan::addNormal(std::string_view rest) {
 }
 
 Result<> ObjScan::countFace(std::string_view rest) {
-  const ObjCounts counts{contents_.vertices.wide.size(), contents_.vertices.normals.size()};
+  const ObjCounts counts{contents_.vertices.wide.size(), contents_.coordinates.size(),
+                         contents_.vertices.normals.size()};
   uint64_t corners = 0;
   ObjCorner corner;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++corners) {
@@ -104,29 +118,58 @@ Result<> ObjScan::countFace(std::string_view rest) {
 class ObjReader final : public MeshReader {
  public:
   ObjReader(InputFile file, ObjContents contents, ObjMaterials materials)
-      : file_(std::move(file)), vertices_(std::move(contents.vertices)), materials_(std::move(materials)) {
+      : file_(std::move(file)),
+        vertices_(std::move(contents.vertices)),
+        materials_(std::move(materials)),
+        looks_(materials_, contents.usedMaterials) {
+    info_.format = "OBJ";
+    info_.up = UpAxis::y;
     info_.vertices = vertices_.count();
     info_.declaredTriangles = contents.triangles;
-    info_.hasColours = !vertices_.colours.empty();
-    for (const std::string& name : contents.usedMaterials) info_.hasColours |= materials_.find(name) != nullptr;
+    info_.hasColours = !vertices_.colours.empty() || !looks_.empty();
+    if (!looks_.textures().empty()) coordinates_ = std::move(contents.coordinates);
     info_.hasNormals = contents.everyCornerHasNormal && contents.greatestNormal < vertices_.normals.size();
     if (!info_.hasNormals) vertices_.normals = {};
   }
 
   const MeshInfo& info() const override { return info_; }
-  std::vector<std::filesystem::path> files() const override { return {file_.path()}; }
+  std::span<const TextureSource> textures() const override { return looks_.textures(); }
+  std::vector<std::filesystem::path> files() const override {
+    std::vector<std::filesystem::path> files = materials_.files();
+    files.insert(files.begin(), file_.path());
+    const std::vector<std::filesystem::path> images = looks_.files();
+    files.insert(files.end(), images.begin(), images.end());
+    return files;
+  }
   Result<MeshCounts> forEachTriangle(const Sink& sink) override;
 
  private:
+  TriangleBatch::FaceLook lookOf(const ObjLook& look, const std::array<ObjCorner, 3>& corners) const;
+  Result<> addFace(const ObjLines& lines, std::string_view rest, const ObjCounts& counts, const ObjLook& look,
+                   TriangleBatch& batch) const;
+
   InputFile file_;
   Vertices vertices_;
+  std::vector<glm::vec2> coordinates_;  // empty without textures
   ObjMaterials materials_;
+  ObjLooks looks_;
   MeshInfo info_;
 };
 
+// A triangle without coordinates at every corner has no texture.
+TriangleBatch::FaceLook ObjReader::lookOf(const ObjLook& look, const std::array<ObjCorner, 3>& corners) const {
+  if (look.texture == kNoTexture) return {look.colour};
+  TriangleBatch::FaceLook textured{look.texturedColour, look.texture};
+  for (size_t k = 0; k < 3; ++k) {
+    if (corners[k].coordinates >= coordinates_.size()) return {look.colour};
+    textured.textureCoordinates[k] = coordinates_[corners[k].coordinates] * look.scale + look.offset;
+  }
+  return textured;
+}
+
 // The triangles of one face, a fan around its first corner.
-Result<> addFace(const ObjLines& lines, std::string_view rest, const ObjCounts& counts, uint32_t colour,
-                 TriangleBatch& batch) {
+Result<> ObjReader::addFace(const ObjLines& lines, std::string_view rest, const ObjCounts& counts, const ObjLook& look,
+                            TriangleBatch& batch) const {
   ObjCorner first;
   ObjCorner last;
   ObjCorner corner;
@@ -135,7 +178,8 @@ Result<> addFace(const ObjLines& lines, std::string_view rest, const ObjCounts& 
     if (!parseObjCorner(word, counts, corner)) return lines.bad("a face corner", word);
     if (corners == 0) first = corner;
     if (corners >= 2)
-      batch.add({first.position, last.position, corner.position}, {first.normal, last.normal, corner.normal}, colour);
+      batch.add({first.position, last.position, corner.position}, {first.normal, last.normal, corner.normal},
+                lookOf(look, {first, last, corner}));
     last = corner;
   }
   return {};
@@ -145,16 +189,14 @@ Result<MeshCounts> ObjReader::forEachTriangle(const Sink& sink) {
   TriangleBatch batch(vertices_, sink);
   ObjLines lines(file_);
   ObjCounts counts;
-  uint32_t colour = defaultColour();
+  const ObjLook* look = &looks_.find("");
   for (std::string_view line; !batch.failed() && lines.next(line);) {
     const std::string_view keyword = takeWord(line);
     if (keyword == "v") ++counts.positions;
+    if (keyword == "vt") ++counts.coordinates;
     if (keyword == "vn") ++counts.normals;
-    if (keyword == "f") FARCELL_TRY(addFace(lines, line, counts, colour, batch));
-    if (keyword == "usemtl") {
-      const uint32_t* kd = materials_.find(trimmed(line));
-      colour = kd ? *kd : defaultColour();
-    }
+    if (keyword == "f") FARCELL_TRY(addFace(lines, line, counts, *look, batch));
+    if (keyword == "usemtl") look = &looks_.find(trimmed(line));
   }
   if (lines.failure()) return tl::unexpected<Error>(*lines.failure());
   return batch.finish();

@@ -1,4 +1,4 @@
-// Wavefront OBJ: v (with optional colour), vn, f, usemtl and mtllib (Kd); everything else is passed over.
+// Wavefront OBJ: v (with optional colour), vt, vn, f, usemtl and mtllib (Kd, map_Kd); everything else is passed over.
 #pragma once
 
 #include <memory>

@@ -101,10 +101,16 @@ auto withSource(const InputFile& file, PlyEncoding encoding, PlyPlace place, con
   return use(source);
 }
 
+std::string formatName(PlyEncoding encoding) {
+  if (encoding == PlyEncoding::ascii) return "PLY, ASCII";
+  return encoding == PlyEncoding::littleEndian ? "PLY, binary little-endian" : "PLY, binary big-endian";
+}
+
 class PlyReader final : public MeshReader {
  public:
   PlyReader(InputFile file, PlyHeader header, PlyBody body)
       : file_(std::move(file)), header_(std::move(header)), body_(std::move(body)) {
+    info_.format = formatName(header_.encoding);
     info_.hasColours = !body_.vertices.colours.empty();
     info_.hasNormals = !body_.vertices.normals.empty();
     info_.vertices = body_.vertices.count();

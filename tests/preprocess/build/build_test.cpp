@@ -54,7 +54,7 @@ class BuildPack : public testing::Test {
   Result<BuildResult> build(const std::filesystem::path& mesh, const std::string& pack,
                             BuildOptions options = {}) const {
     Progress silent(false);
-    return buildPack(mesh, directory_ / pack, options, silent);
+    return buildPack({&mesh, 1}, directory_ / pack, options, silent);
   }
   std::string bytesOf(const std::string& name) const {
     return readTextFile(directory_ / name, uint64_t{1} << 30).value();
@@ -151,8 +151,8 @@ TEST_F(BuildPack, StreamedLeavesBakeTheSameViewsAsGatheredOnes) {
   const CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   const Model model{partition.grid, partition.bounds, options.settings, false, false};
   const Viewpoints viewpoints = Viewpoints::create(42).value();
-  const CellPages gathered = bakeCell(0, model, tree, partition, viewpoints).value();
-  const CellPages streamed = bakeCell(0, model, tree, partition, viewpoints, 0).value();
+  const CellPages gathered = bakeCell(0, model, tree, partition, viewpoints, nullptr).value();
+  const CellPages streamed = bakeCell(0, model, tree, partition, viewpoints, nullptr, 0).value();
   ASSERT_EQ(gathered.pages.size(), streamed.pages.size());
   for (size_t i = 0; i < gathered.pages.size(); ++i) EXPECT_TRUE(gathered.pages[i].bytes == streamed.pages[i].bytes);
 }

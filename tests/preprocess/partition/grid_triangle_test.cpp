@@ -34,11 +34,12 @@ struct Cut {
 };
 
 Cut cutTriangle(const GridTriangle& triangle, int axis, int32_t plane) {
-  const CutPolygon parts = cutAt(polygonOf(triangle), axis, plane);
-  Cut cut;
-  appendTriangles(parts.low, cut.low);
-  appendTriangles(parts.high, cut.high);
-  return cut;
+  const CutPolygon parts = cutAt(polygonOf(triangle, {}), axis, plane);
+  GridTriangles low, high;
+  appendTriangles(parts.low, low);
+  appendTriangles(parts.high, high);
+  EXPECT_TRUE(low.textures.empty() && high.textures.empty());
+  return {low.triangles, high.triangles};
 }
 
 TEST(CutTriangle, PartsLieOnTheirSideAndKeepTheArea) {
@@ -109,12 +110,36 @@ TEST(CutTriangle, ColoursAreInterpolatedAlongTheEdge) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(high[0].colours[k], high[0].corners[k].x == 100 ? 0x6400c8u : 0x320064u);
 }
 
+// Texture coordinates that are an affine function of the position remain this function, up to the grid's rounding.
+TEST(CutTriangle, TextureCoordinatesAreInterpolatedAlongTheEdge) {
+  const uint32_t seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  const auto coordinatesAt = [](GridPoint p) { return glm::vec2(p.x - p.z, 2 * p.y) / float(kSize); };
+  for (int round = 0; round < 500; ++round) {
+    const GridTriangle triangle = triangleOf(randomPoint(random), randomPoint(random), randomPoint(random));
+    TriangleTexture texture{3, {}};
+    for (size_t k = 0; k < 3; ++k) texture.coordinates[k] = coordinatesAt(triangle.corners[k]);
+    const CutPolygon parts = cutAt(polygonOf(triangle, texture), round % 3, randomPoint(random).x);
+    GridTriangles all;
+    appendTriangles(parts.low, all);
+    appendTriangles(parts.high, all);
+    ASSERT_EQ(all.textures.size(), all.size());
+    for (size_t i = 0; i < all.size(); ++i) {
+      EXPECT_EQ(all.textures[i].texture, 3u);
+      for (size_t k = 0; k < 3; ++k)
+        EXPECT_LT(glm::length(all.textures[i].coordinates[k] - coordinatesAt(all.triangles[i].corners[k])),
+                  3.0f / float(kSize) + 1e-6f);
+    }
+  }
+}
+
 TEST(CutAt, APolygonCutManyTimesKeepsFewCorners) {
   const uint32_t seed = std::random_device{}();
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   for (int round = 0; round < 500; ++round) {
-    GridPolygon polygon = polygonOf(triangleOf(randomPoint(random), randomPoint(random), randomPoint(random)));
+    GridPolygon polygon = polygonOf(triangleOf(randomPoint(random), randomPoint(random), randomPoint(random)), {});
     GridPoint min(0), max(kSize);
     for (int level = 0; level < 12 && polygon.count > 0; ++level) {
       for (int axis = 0; axis < 3 && polygon.count > 0; ++axis) {

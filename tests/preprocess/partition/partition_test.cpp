@@ -5,6 +5,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -72,8 +73,8 @@ Result<Partition> partitioned(const std::vector<InputTriangle>& triangles, const
 double leafArea(const Partition& partition) {
   double sum = 0;
   for (const Leaf& leaf : partition.leaves) {
-    const std::vector<GridTriangle> triangles = partition.triangles.read(leaf.list).value();
-    for (const GridTriangle& t : triangles)
+    const GridTriangles list = partition.triangles.read(leaf.list).value();
+    for (const GridTriangle& t : list.triangles)
       sum += 0.5 *
              glm::length(glm::cross(glm::dvec3(t.corners[1] - t.corners[0]), glm::dvec3(t.corners[2] - t.corners[0])));
   }
@@ -146,8 +147,44 @@ TEST(PartitionMesh, TheSameLeavesComeFromOneThreadAndFromFour) {
     EXPECT_EQ(one->leaves[i].key, four->leaves[i].key);
     const auto a = *one->triangles.read(one->leaves[i].list), b = *four->triangles.read(four->leaves[i].list);
     ASSERT_EQ(a.size(), b.size());
-    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(GridTriangle)), 0);
+    EXPECT_EQ(std::memcmp(a.triangles.data(), b.triangles.data(), a.size() * sizeof(GridTriangle)), 0);
   }
+}
+
+// Every third triangle is textured; coordinates are positions, so that each piece can be checked by itself.
+TEST(PartitionMesh, TexturesGoWithTheirTriangles) {
+  const uint32_t seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  auto triangles = tetrahedra(random, 3000, 1, glm::dvec3(0));
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    triangles[i].texture = i % 3 == 0 ? kNoTexture : static_cast<uint32_t>(i % 3);
+    for (size_t k = 0; k < 3; ++k)
+      triangles[i].textureCoordinates[k] = glm::vec2(triangles[i].positions[k].x, triangles[i].positions[k].y);
+  }
+  triangles[1].textureCoordinates[2].y = std::numeric_limits<float>::quiet_NaN();
+  BuildSettings settings;
+  settings.leafTriangles = 300;
+  const auto partition = partitioned(triangles, settings);
+  ASSERT_TRUE(partition);
+  size_t textured = 0, plain = 0;
+  for (const Leaf& leaf : partition->leaves) {
+    const auto check = [&](const GridTriangleSpan& portion) -> Result<> {
+      for (size_t i = 0; i < portion.size(); ++i) {
+        const TriangleTexture texture = portion.texture(i);
+        (texture.texture == kNoTexture ? plain : textured) += 1;
+        for (size_t k = 0; texture.texture != kNoTexture && k < 3; ++k) {
+          const glm::dvec3 at = partition->grid.worldFromGrid(portion.triangles[i].corners[k]);
+          EXPECT_NEAR(texture.coordinates[k].x, at.x, 1e-5);
+          EXPECT_NEAR(texture.coordinates[k].y, at.y, 1e-5);
+        }
+      }
+      return {};
+    };
+    ASSERT_TRUE(partition->triangles.forEachPortion(leaf.list, 100, check));
+  }
+  EXPECT_GT(textured, 1.5 * static_cast<double>(plain));
+  EXPECT_GE(plain, triangles.size() / 3);
 }
 
 TEST(PartitionMesh, PointsThatNoSplitCanSeparateEndAtTheDepthLimit) {

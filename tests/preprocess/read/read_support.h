@@ -84,6 +84,28 @@ inline ReadMesh readGood(const std::filesystem::path& path) {
   return {};
 }
 
+// A file that must be refused, and what the message says about it.
+struct BadFile {
+  std::string bytes;
+  std::string says;
+  ErrorKind kind = ErrorKind::corrupt;
+};
+
+// Messages name the path, and what was expected and found.
+inline void expectRefused(const TempDirectory& directory, const std::string& name, const BadFile& bad) {
+  SCOPED_TRACE(bad.bytes.substr(0, 200));
+  const std::filesystem::path path = directory.write(name, bad.bytes);
+  const Result<ReadMesh> result = readMesh(path);
+  ASSERT_FALSE(result);
+  const std::string& message = result.error().message;
+  EXPECT_EQ(result.error().kind, bad.kind) << message;
+  EXPECT_TRUE(message.starts_with(path.string() + ": ")) << message;
+  EXPECT_NE(message.find("expected "), std::string::npos) << message;
+  EXPECT_NE(message.find("found "), std::string::npos) << message;
+  EXPECT_NE(message.find(bad.says), std::string::npos) << message << "\nshould say: " << bad.says;
+  EXPECT_LT(message.size(), 1000u);
+}
+
 // A PLY body, value by value, in one of the three encodings.
 enum class Encoding { ascii, little, big };
 

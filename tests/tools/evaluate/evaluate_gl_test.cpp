@@ -83,7 +83,7 @@ TEST_F(EvaluateProgram, HostileNamesStayInTheReportsDirectoryAndApart) {
   int pictures = 0;
   for (const auto& file : std::filesystem::directory_iterator(path("report")))
     pictures += file.path().extension() == ".png" ? 1 : 0;
-  EXPECT_EQ(pictures, 2 * (1 + 2 * 2)) << "of each camera the reference, and two for each of two renderers";
+  EXPECT_EQ(pictures, 2 * (1 + 2 * 3)) << "of each camera the reference, and three for each of two renderers";
   for (const auto& file : std::filesystem::directory_iterator(directory_.path()))
     EXPECT_NE(file.path().extension(), ".png") << file.path();
 }

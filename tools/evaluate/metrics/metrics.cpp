@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cache/base/check.h"
 
@@ -40,7 +41,7 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 // Everything that is a function of single pixels.
 struct Sums {
-  double absolute = 0, foreground = 0, squares = 0, silhouette = 0, interior = 0, ssim = 0, impostor = 0;
+  double absolute = 0, foreground = 0, squares = 0, silhouette = 0, interior = 0, ssim = 0, flip = 0, impostor = 0;
   double coverage = 0, referenceCoverage = 0;
   uint64_t solid = 0, holes = 0, leaks = 0, drawn = 0;
   std::vector<float> largest;  // of the three channels, foreground pixels
@@ -80,14 +81,16 @@ void addDifference(Sums& sums, double coverage, const float* a, const float* b) 
   sums.largest.push_back(largest);
 }
 
-Sums sumUp(const ReferenceImage& reference, const TestImage& test, const Colour& background) {
+Sums sumUp(const ReferenceImage& reference, const TestImage& test, const Colour& background, std::vector<float>& flip) {
   const std::vector<float> truth = composite(reference, background);
   const std::vector<float> own = composite(test, background);
   const std::vector<double> ssim = structuralSimilarity(truth, own, reference.width, reference.height);
+  flip = flipErrors(truth, own, reference.width, reference.height);
   Sums sums;
   for (size_t pixel = 0; pixel < reference.coverage.size(); ++pixel) {
     const double coverage = reference.coverage[pixel];
     addCoverage(sums, coverage, test.rgba[4 * pixel + 3] / 255.0);
+    sums.flip += flip[pixel];
     addDifference(sums, coverage, &truth[3 * pixel], &own[3 * pixel]);
     if (coverage <= 0) continue;
     sums.ssim += ssim[pixel];
@@ -102,7 +105,8 @@ double psnrDb(double meanSquare) {
 
 }  // namespace
 
-Metrics measure(const ReferenceImage& reference, const TestImage& test, const Colour& background) {
+Metrics measure(const ReferenceImage& reference, const TestImage& test, const Colour& background,
+                std::vector<float>* flipMap) {
   const size_t pixels = static_cast<size_t>(reference.width) * static_cast<size_t>(reference.height);
   FARCELL_CHECK_EQ(reference.width, test.width);
   FARCELL_CHECK_EQ(reference.height, test.height);
@@ -111,7 +115,9 @@ Metrics measure(const ReferenceImage& reference, const TestImage& test, const Co
   FARCELL_CHECK_EQ(test.rgba.size(), 4 * pixels);
   FARCELL_CHECK(test.impostorCoverage.empty() || test.impostorCoverage.size() == pixels);
 
-  Sums sums = sumUp(reference, test, background);
+  std::vector<float> flip;
+  Sums sums = sumUp(reference, test, background, flip);
+  if (flipMap) *flipMap = std::move(flip);
   Metrics metrics;
   metrics.foregroundPixels = sums.largest.size();
   metrics.rectanglePixels = foregroundRectangle(reference).pixels();
@@ -121,6 +127,7 @@ Metrics measure(const ReferenceImage& reference, const TestImage& test, const Co
   metrics.mae = ratio(sums.foreground, 3 * foreground);
   metrics.psnr = psnrDb(ratio(sums.squares, 3 * foreground));
   metrics.ssim = foreground > 0 ? sums.ssim / foreground : 1;
+  metrics.flip = ratio(sums.flip, static_cast<double>(pixels));
   metrics.p95 = percentile(sums.largest, 0.95);
   metrics.p99 = percentile(sums.largest, 0.99);
   metrics.holeRate = ratio(static_cast<double>(sums.holes), static_cast<double>(sums.solid));

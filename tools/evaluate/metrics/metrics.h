@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "tools/evaluate/metrics/images.h"
 
@@ -22,6 +24,7 @@ struct Metrics {
   double mae = 0;            // mean |d| over the foreground's pixels and channels
   double psnr = 0;           // dB, from the mean d^2 over the foreground's pixels and channels; at most kMaxPsnrDb
   double ssim = 0;           // structuralSimilarity(), mean over the foreground
+  double flip = 0;           // flipErrors(), mean over the whole image
   double p95 = 0;            // of max(|dR|, |dG|, |dB|) over the foreground, nearest rank
   double p99 = 0;
   double holeRate = 0;         // of pixels with reference coverage > .999, the share whose own coverage is < .5
@@ -35,12 +38,19 @@ struct Metrics {
 };
 
 // REQUIRES: pictures of the same size, every buffer of the size its image states. A reference without foreground gives
-// psnr kMaxPsnrDb, ssim 1, paperErrorSum as measured and 0 for everything else.
-Metrics measure(const ReferenceImage& reference, const TestImage& test, const Colour& background);
+// psnr kMaxPsnrDb, ssim 1, paperErrorSum and flip as measured and 0 for everything else. flipMap: gets flipErrors();
+// null: not wanted.
+Metrics measure(const ReferenceImage& reference, const TestImage& test, const Colour& background,
+                std::vector<float>* flipMap = nullptr);
 
 // Wang, Bovik, Sheikh, Simoncelli, Image quality assessment: from error visibility to structural similarity, 2004:
 // Gaussian window of 11 x 11 pixels, sigma 1.5, K1 .01, K2 .03, on luma (Rec. 601 weights of R, G, B in 0-255); a
 // window at the image's border counts only its pixels inside. Returns one value a pixel. `a` and `b`: 3 a pixel.
 std::vector<double> structuralSimilarity(std::span<const float> a, std::span<const float> b, int width, int height);
+
+// LDR-FLIP: what a person sees of the difference when the two pictures take turns in one place, [0, 1], one value a
+// pixel (flip.cpp). `a` and `b`: 3 a pixel, 0-255, taken as sRGB.
+inline constexpr double kFlipPixelsPerDegree = 67;  // the paper's viewer: .7 m from a screen .7 m wide of 3840 pixels
+std::vector<float> flipErrors(std::span<const float> a, std::span<const float> b, int width, int height);
 
 }  // namespace farcell

@@ -3,9 +3,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "cache/base/hash.h"
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
+#include "preprocess/mesh/source_hash.h"
 #include "preprocess/read/open_mesh.h"
 #include "shaders/shared/shading.h"
 #include "tools/evaluate/reference/reference.h"
@@ -16,25 +16,15 @@ namespace {
 
 constexpr uint64_t kMaxTriangles = std::numeric_limits<uint32_t>::max() / 3;  // three positions each, 32-bit indices
 
-Result<uint64_t> hashFile(const std::filesystem::path& path) {
-  FARCELL_ASSIGN(const InputFile file, InputFile::open(path));
-  std::vector<std::byte> chunk(uint64_t{4} << 20);
-  Hasher hasher;
-  for (uint64_t offset = 0; offset < file.sizeBytes(); offset += chunk.size()) {
-    FARCELL_TRY(checkInterrupt());
-    chunk.resize(std::min<uint64_t>(chunk.size(), file.sizeBytes() - offset));
-    FARCELL_TRY(file.readAt(offset, chunk));
-    hasher.add(chunk);
-  }
-  return hasher.value();
-}
+// What messages call the mesh: its first file.
+std::string nameOf(const MeshReader& mesh) { return mesh.files()[0].string(); }
 
-Result<> checkSource(const std::filesystem::path& mesh, const Directory& directory) {
-  FARCELL_ASSIGN(const uint64_t hash, hashFile(mesh));
+Result<> checkSource(const MeshReader& mesh, const Directory& directory) {
+  FARCELL_ASSIGN(const uint64_t hash, sourceHash(mesh));
   if (hash == directory.sourceHash) return {};
   return fail(ErrorKind::invalidArgument,
-              "{}: hash {:016x}, but the pack was built from '{}' with hash {:016x}: it is not the same file",
-              mesh.string(), hash, directory.sourceName, directory.sourceHash);
+              "{}: hash {:016x}, but the pack was built from '{}' with hash {:016x}: it is not the same source",
+              nameOf(mesh), hash, directory.sourceName, directory.sourceHash);
 }
 
 uint32_t octahedralBits(glm::vec3 unit) {
@@ -77,21 +67,25 @@ void appendTriangle(LocalTriangles& local, const InputTriangle& triangle, const 
     if (info.hasNormals) local.normals.push_back(cornerNormal(triangle, corner));
   }
   local.triangles.emplace_back(first, first + 1, first + 2);
+  if (local.textures.empty()) return;
+  local.textureOf.push_back(triangle.texture);
+  local.coordinates.insert(local.coordinates.end(), triangle.textureCoordinates.begin(),
+                           triangle.textureCoordinates.end());
 }
 
-Result<LocalTriangles> readTriangles(const std::filesystem::path& mesh, const Directory& directory,
+Result<LocalTriangles> readTriangles(MeshReader& mesh, const Directory& directory,
                                      const std::function<void(uint64_t)>& progress) {
-  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMesh(mesh));
   LocalTriangles local = emptyModel(directory.model);
+  FARCELL_ASSIGN(local.textures, WholeTextures::read(mesh.textures()));
   const auto sink = [&](std::span<const InputTriangle> batch) -> Result<> {
     FARCELL_TRY(checkInterrupt());
     if (local.triangles.size() + batch.size() > kMaxTriangles)
-      return fail(ErrorKind::unsupported, "{}: more than {} triangles", mesh.string(), kMaxTriangles);
-    for (const InputTriangle& triangle : batch) appendTriangle(local, triangle, reader->info());
+      return fail(ErrorKind::unsupported, "{}: more than {} triangles", nameOf(mesh), kMaxTriangles);
+    for (const InputTriangle& triangle : batch) appendTriangle(local, triangle, mesh.info());
     progress(batch.size());
     return {};
   };
-  FARCELL_TRY(reader->forEachTriangle(sink));
+  FARCELL_TRY(mesh.forEachTriangle(sink));
   return local;
 }
 
@@ -107,10 +101,11 @@ MeshReference::MeshReference(std::unique_ptr<Impl> impl) : impl_(std::move(impl)
 MeshReference::MeshReference(MeshReference&&) noexcept = default;
 MeshReference::~MeshReference() = default;
 
-Result<MeshReference> MeshReference::load(const std::filesystem::path& mesh, const Directory& directory,
+Result<MeshReference> MeshReference::load(std::span<const std::filesystem::path> meshes, const Directory& directory,
                                           const std::function<void(uint64_t triangles)>& progress) {
-  FARCELL_TRY(checkSource(mesh, directory));
-  FARCELL_ASSIGN(LocalTriangles triangles, readTriangles(mesh, directory, progress));
+  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> mesh, openMeshes(meshes));
+  FARCELL_TRY(checkSource(*mesh, directory));
+  FARCELL_ASSIGN(LocalTriangles triangles, readTriangles(*mesh, directory, progress));
   FARCELL_ASSIGN(EmbreeDevice device, createEmbreeDevice(0));
   FARCELL_ASSIGN(TracedGeometry geometry, buildTracedGeometry(device.get(), std::move(triangles)));
   const glm::vec3 light = sunDirection(directory.model.settings.up);

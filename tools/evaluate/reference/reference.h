@@ -4,7 +4,7 @@
 // 1. `traceReference` walks the octree from the eye outwards (leaves.h). Leaf cubes are disjoint, so the first leaf in
 //    which a sample's ray hits anything owns the sample: leaves are read, traced and dropped a few at a time, however
 //    large the model.
-// 2. `MeshReference` holds the original file's triangles in memory. It alone can see what was lost on the way into
+// 2. `MeshReference` holds the original files' triangles in memory. It alone can see what was lost on the way into
 //    the pack.
 // Both trace the same rays (tracer.h), so that their difference is the geometry's alone. Selection and culling of the
 // runtime are not used: a fault there must show as an error.
@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
@@ -36,11 +37,12 @@ Result<> checkReferenceSamples(int samples);
 // From the pack's own leaves, out of core. Ends with `cancelled` on Ctrl-C.
 Result<ReferenceImage> traceReference(const PackFile& pack, const Camera& camera, const ReferenceSettings& settings);
 
-// From the file a pack was built from; about 250 bytes of memory a triangle.
+// From the files a pack was built from; about 250 bytes of memory a triangle and 4 a pixel of their textures.
 class MeshReference {
  public:
-  // invalidArgument when the file's hash is not the pack's sourceHash. `progress` is told of triangles read.
-  static Result<MeshReference> load(const std::filesystem::path& mesh, const Directory& directory,
+  // The files as they were given to the build; invalidArgument when their hash is not the pack's sourceHash. `progress`
+  // is told of triangles read.
+  static Result<MeshReference> load(std::span<const std::filesystem::path> meshes, const Directory& directory,
                                     const std::function<void(uint64_t triangles)>& progress);
   MeshReference(MeshReference&&) noexcept;
   ~MeshReference();

@@ -55,6 +55,14 @@ glm::vec3 albedoAt(const LocalTriangles& geometry, glm::uvec3 corners, float u, 
   return interpolate(geometry.colours, corners, u, v, colourFromBytes);
 }
 
+glm::vec3 textureAt(const LocalTriangles& geometry, uint32_t triangle, float u, float v) {
+  if (geometry.textureOf.empty() || geometry.textureOf[triangle] == kNoTexture) return glm::vec3(1);
+  const glm::uvec3 corners = geometry.triangles[triangle];
+  const glm::vec2 at = (1 - u - v) * geometry.coordinates[corners.x] + u * geometry.coordinates[corners.y] +
+                       v * geometry.coordinates[corners.z];
+  return geometry.textures.colourAt(geometry.textureOf[triangle], at);
+}
+
 void shareBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const void* data, size_t count) {
   rtcSetSharedGeometryBuffer(geometry, type, 0, format, data, 0, 3 * sizeof(uint32_t), count);
 }
@@ -88,7 +96,8 @@ Result<TracedGeometry> buildTracedGeometry(RTCDevice device, LocalTriangles tria
 
 glm::vec3 shadeHit(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::vec3 light) {
   const glm::uvec3 corners = geometry.triangles[triangle];
-  return shared::shade(albedoAt(geometry, corners, u, v), normalAt(geometry, corners, u, v), light);
+  const glm::vec3 albedo = albedoAt(geometry, corners, u, v) * textureAt(geometry, triangle, u, v);
+  return shared::shade(albedo, normalAt(geometry, corners, u, v), light);
 }
 
 }  // namespace farcell

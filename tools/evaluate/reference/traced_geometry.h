@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cache/base/result.h"
+#include "tools/evaluate/reference/whole_textures.h"
 
 namespace farcell {
 
@@ -22,6 +23,10 @@ struct LocalTriangles {
   std::vector<uint32_t> colours;  // 0x00BBGGRR per position; empty: kDefaultAlbedo
   std::vector<uint32_t> normals;  // octahedral per position, as in GeometryPage; empty: flat faces
   std::vector<glm::uvec3> triangles;
+  // What multiplies the colours; empty: no triangle has a texture.
+  std::vector<uint32_t> textureOf;     // per triangle: index into textures, or kNoTexture
+  std::vector<glm::vec2> coordinates;  // per position
+  WholeTextures textures;
 };
 
 struct ReleaseDevice {

@@ -22,6 +22,7 @@ double medianOf(std::vector<double> values);
 
 struct Entry {
   std::string camera;
+  std::string stem;  // of the names of its camera's files (names.h)
   RendererPlan renderer;
   Metrics metrics;
   FrameTimes frame;        // wall

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/evaluate/report/magma.h"
 #include "tools/image/png.h"
 
 namespace farcell {
@@ -16,6 +17,16 @@ Result<> writeRgb(const std::filesystem::path& path, int width, int height, cons
   return writePng(path, picture);
 }
 
+Result<> writeMap(const std::filesystem::path& path, int width, int height, std::span<const float> values) {
+  Picture picture{width, height, 3, {}};
+  picture.pixels.reserve(3 * values.size());
+  for (const float value : values) {
+    const std::array<uint8_t, 3> colour = magma(value);
+    picture.pixels.insert(picture.pixels.end(), colour.begin(), colour.end());
+  }
+  return writePng(path, picture);
+}
+
 }  // namespace
 
 Result<> writeReferencePicture(const std::filesystem::path& directory, const std::string& stem,
@@ -24,14 +35,16 @@ Result<> writeReferencePicture(const std::filesystem::path& directory, const std
                   composite(reference, background));
 }
 
-Result<> writeRendererPictures(const std::filesystem::path& directory, const std::string& stem,
-                               const std::string& renderer, const ReferenceImage& reference, const TestImage& test,
-                               const Colour& background) {
+Result<> writeRendererPictures(const std::filesystem::path& directory, const RendererPicture& picture,
+                               const ReferenceImage& reference, const Colour& background) {
+  const int width = picture.image.width, height = picture.image.height;
+  const std::string name = picture.stem + "." + picture.renderer;
   const std::vector<float> truth = composite(reference, background);
-  std::vector<float> own = composite(test, background);
-  FARCELL_TRY(writeRgb(directory / (stem + "." + renderer + ".png"), test.width, test.height, own));
+  std::vector<float> own = composite(picture.image, background);
+  FARCELL_TRY(writeRgb(directory / (name + ".png"), width, height, own));
   for (size_t i = 0; i < own.size(); ++i) own[i] = kDifferenceGain * std::abs(own[i] - truth[i]);
-  return writeRgb(directory / (stem + "." + renderer + ".difference.png"), test.width, test.height, own);
+  FARCELL_TRY(writeRgb(directory / (name + ".difference.png"), width, height, own));
+  return writeMap(directory / (name + ".flip.png"), width, height, picture.flip);
 }
 
 }  // namespace farcell

@@ -1,8 +1,10 @@
-// The pictures of a report, all over the background: <stem>.reference.png, <stem>.<renderer>.png and
-// <stem>.<renderer>.difference.png. Stems hold no dot (names.h), so no two pictures share a name.
+// The pictures of a report, all over the background: <stem>.reference.png, <stem>.<renderer>.png,
+// <stem>.<renderer>.difference.png and <stem>.<renderer>.flip.png (magma.h). Stems hold no dot (names.h), so no two
+// pictures share a name.
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "cache/base/result.h"
@@ -14,9 +16,15 @@ inline constexpr float kDifferenceGain = 4;  // |d| is shown this many times bri
 
 Result<> writeReferencePicture(const std::filesystem::path& directory, const std::string& stem,
                                const ReferenceImage& reference, const Colour& background);
-// The renderer's picture and its difference from the reference.
-Result<> writeRendererPictures(const std::filesystem::path& directory, const std::string& stem,
-                               const std::string& renderer, const ReferenceImage& reference, const TestImage& test,
-                               const Colour& background);
+
+struct RendererPicture {
+  std::string stem;  // of its camera
+  std::string renderer;
+  TestImage image;
+  std::span<const float> flip;  // flipErrors() of it, 1 a pixel
+};
+// The renderer's picture, its difference from the reference, and its FLIP map.
+Result<> writeRendererPictures(const std::filesystem::path& directory, const RendererPicture& picture,
+                               const ReferenceImage& reference, const Colour& background);
 
 }  // namespace farcell

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "shaders/shared/shading.h"
+#include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/summary.h"
 
 namespace farcell {
@@ -46,6 +47,7 @@ Json optionalJson(const std::optional<double>& value) { return value ? Json(*val
 Json entryJson(const Entry& entry) {
   const Metrics& m = entry.metrics;
   return {{"camera", entry.camera},
+          {"stem", entry.stem},
           {"renderer", entry.renderer.name},
           {"class", entry.renderer.rendererClass},
           {"settings", settingsJson(entry.renderer.settings)},
@@ -55,6 +57,7 @@ Json entryJson(const Entry& entry) {
           {"mae", m.mae},
           {"psnr", m.psnr},
           {"ssim", m.ssim},
+          {"flip", m.flip},
           {"p95", m.p95},
           {"p99", m.p99},
           {"holeRate", m.holeRate},
@@ -90,7 +93,8 @@ Json summaryJson(const std::vector<Entry>& entries) {
                               {"mostlyImpostors", ratiosJson(summary.mostlyImpostors)},
                               {"elsewhere", ratiosJson(summary.elsewhere)},
                               {"medianFrameMs", summary.medianFrameMs},
-                              {"worstHoleRate", summary.worstHoleRate}};
+                              {"worstHoleRate", summary.worstHoleRate},
+                              {"meanFlip", summary.meanFlip}};
   }
   return json;
 }
@@ -127,6 +131,8 @@ Json factsJson(const ReportFacts& facts) {
            {{"kind", facts.referenceKind}, {"samples", facts.referenceSamples}, {"seconds", facts.referenceSeconds}}},
           {"timedFrames", facts.timedFrames},
           {"psnrCap", kMaxPsnrDb},
+          {"flipPixelsPerDegree", kFlipPixelsPerDegree},
+          {"differenceGain", kDifferenceGain},
           {"machine", {{"processor", processorName()}, {"threads", std::thread::hardware_concurrency()}}},
           {"gl", facts.glRenderer}};
 }
@@ -179,10 +185,11 @@ std::string optionalText(const std::optional<double>& value) { return value ? fm
 std::string entryLine(const Entry& entry) {
   const Metrics& m = entry.metrics;
   return fmt::format(
-      "{:<20} {:<10} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} {:>6}\n",
+      "{:<20} {:<10} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} "
+      "{:>6}\n",
       printable(entry.camera), entry.renderer.name, m.paperError, optionalText(entry.ratioToFull1spp), m.psnr, m.ssim,
-      100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs, entry.triangles,
-      entry.impostors);
+      m.flip, 100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs,
+      entry.triangles, entry.impostors);
 }
 
 std::string summaryLine(const RendererSummary& summary) {
@@ -211,9 +218,10 @@ std::string reportCsv(const std::vector<Entry>& entries) {
 }
 
 std::string reportTable(const std::vector<Entry>& entries) {
-  std::string text = fmt::format("{:<20} {:<10} {:>8} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n",
-                                 "camera", "renderer", "error", "ratio", "psnr", "ssim", "hole %", "leak %", "cover %",
-                                 "imp.", "frame ms", "triangles", "cells");
+  std::string text =
+      fmt::format("{:<20} {:<10} {:>8} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n", "camera",
+                  "renderer", "error", "ratio", "psnr", "ssim", "flip", "hole %", "leak %", "cover %", "imp.",
+                  "frame ms", "triangles", "cells");
   for (const Entry& entry : entries) text += entryLine(entry);
   text += fmt::format("\n{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9} {:>9}\n", "renderer", "class", "ratio", "worst",
                       "impostors >= .8 (n)", "elsewhere (n)", "frame ms", "hole %");

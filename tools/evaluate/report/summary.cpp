@@ -26,7 +26,7 @@ RatioSummary summariseRatios(std::span<const Entry> entries, const std::function
 RendererSummary summariseRenderer(std::span<const Entry> entries, const RendererPlan& renderer) {
   const auto own = [&](const Entry& entry) { return entry.renderer.name == renderer.name; };
   const auto impostors = [&](const Entry& entry) { return entry.metrics.impostorShare >= kMostlyImpostors; };
-  RendererSummary summary{renderer.name, renderer.rendererClass, {}, {}, {}, 0, 0};
+  RendererSummary summary{renderer.name, renderer.rendererClass, {}, {}, {}, 0, 0, 0};
   summary.all = summariseRatios(entries, own);
   summary.mostlyImpostors = summariseRatios(entries, [&](const Entry& e) { return own(e) && impostors(e); });
   summary.elsewhere = summariseRatios(entries, [&](const Entry& e) { return own(e) && !impostors(e); });
@@ -35,8 +35,10 @@ RendererSummary summariseRenderer(std::span<const Entry> entries, const Renderer
     if (!own(entry)) continue;
     frames.push_back(entry.frame.medianMs);
     summary.worstHoleRate = std::max(summary.worstHoleRate, entry.metrics.holeRate);
+    summary.meanFlip += entry.metrics.flip;
   }
   summary.medianFrameMs = medianOf(frames);
+  summary.meanFlip /= static_cast<double>(frames.size());
   return summary;
 }
 

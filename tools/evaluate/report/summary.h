@@ -27,6 +27,7 @@ struct RendererSummary {
   RatioSummary elsewhere;
   double medianFrameMs = 0;  // median over cameras of the medians
   double worstHoleRate = 0;
+  double meanFlip = 0;  // over cameras
 };
 
 // Sets each entry's ratio from the baseline entry of the same camera. REQUIRES: no two cameras of one name.

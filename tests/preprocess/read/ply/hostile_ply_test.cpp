@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <random>
 
@@ -30,8 +29,8 @@ std::string sample(Encoding encoding) {
 void expectCorrupt(const Result<ReadMesh>& result) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::corrupt) << result.error().message;
-  EXPECT_NE(result.error().message.find("offset"), std::string::npos) << result.error().message;
-  EXPECT_NE(result.error().message.find("expected"), std::string::npos) << result.error().message;
+  for (const char* part : {".ply: ", "offset ", "expected ", "found "})
+    EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
 }
 
 TEST(HostilePly, IsAnErrorAtEveryTruncation) {
@@ -140,6 +139,12 @@ TEST(HostilePly, RefusesHeadersThatMakeNoMesh) {
   EXPECT_EQ(cloud.error().kind, ErrorKind::unsupported);
 }
 
+TEST(HostilePly, RefusesEmptyFilesAndWrongMagic) {
+  const TempDirectory directory;
+  expectCorrupt(readMesh(directory.write("empty.ply", "")));
+  expectCorrupt(readMesh(directory.write("magic.ply", "plx\nformat ascii 1.0\nend_header\n")));
+}
+
 TEST(HostilePly, SkipsElementsWithoutPropertiesWhateverTheirCount) {
   const TempDirectory directory;
   for (const Encoding encoding : {Encoding::little, Encoding::ascii}) {
@@ -147,38 +152,6 @@ TEST(HostilePly, SkipsElementsWithoutPropertiesWhateverTheirCount) {
     bytes.insert(bytes.find("element face"), "element nothing 18446744073709551615\n");
     EXPECT_EQ(readGood(directory.write("nothing.ply", bytes)).triangles.size(), 5u);
   }
-}
-
-TEST(OpenMesh, RefusesWhatIsNoRegularFile) {
-  const TempDirectory directory;
-  EXPECT_FALSE(openMesh(directory.path()));
-  const auto fifo = directory.path() / "pipe.ply";
-  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-  EXPECT_FALSE(openMesh(fifo));
-  const auto missing = openMesh(directory.path() / "missing.ply");
-  ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().kind, ErrorKind::notFound);
-}
-
-TEST(OpenMesh, NamesTheFormatsItCannotRead) {
-  const TempDirectory directory;
-  for (const auto& [name, format] :
-       {std::pair{"a.stl", "STL"}, {"a.OFF", "OFF"}, {"a.gltf", "glTF"}, {"a.glb", "binary glTF"}, {"a.xyz", ".xyz"}}) {
-    const auto result = openMesh(directory.write(name, "solid nothing"));
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().kind, ErrorKind::unsupported);
-    EXPECT_NE(result.error().message.find(format), std::string::npos) << result.error().message;
-  }
-}
-
-TEST(OpenMesh, RefusesEmptyFilesAndWrongMagic) {
-  const TempDirectory directory;
-  for (const char* name : {"empty.ply", "empty.obj"}) {
-    const auto result = openMesh(directory.write(name, ""));
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().kind, ErrorKind::corrupt) << result.error().message;
-  }
-  expectCorrupt(readMesh(directory.write("magic.ply", "plx\nformat ascii 1.0\nend_header\n")));
 }
 
 }  // namespace

@@ -260,8 +260,8 @@ void expectMeshAndPackAgree(const TestModel& model, const Camera& camera) {
   const auto pack = PackFile::open(directory.path() / "model.far");
   ASSERT_TRUE(pack) << pack.error().message;
   uint64_t told = 0;
-  const auto mesh = MeshReference::load(directory.path() / "model.ply", pack->directory(),
-                                        [&](uint64_t triangles) { told += triangles; });
+  const std::filesystem::path path = directory.path() / "model.ply";
+  const auto mesh = MeshReference::load({&path, 1}, pack->directory(), [&](uint64_t triangles) { told += triangles; });
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh->triangles(), model.triangles.size());
   EXPECT_EQ(told, model.triangles.size());
@@ -298,7 +298,8 @@ TEST(MeshReference, AnotherFileIsRefusedWithBothHashes) {
   writeTestPack(model, directory.path() / "model.far", hash ^ 0xff);
   const auto pack = PackFile::open(directory.path() / "model.far");
   ASSERT_TRUE(pack);
-  const auto mesh = MeshReference::load(directory.path() / "other.ply", pack->directory(), [](uint64_t) {});
+  const std::filesystem::path path = directory.path() / "other.ply";
+  const auto mesh = MeshReference::load({&path, 1}, pack->directory(), [](uint64_t) {});
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().kind, ErrorKind::invalidArgument);
   EXPECT_NE(mesh.error().message.find(fmt::format("{:016x}", hash)), std::string::npos) << mesh.error().message;

@@ -58,15 +58,18 @@ TEST(Pictures, HoldWhatIsComparedAndTheAmplifiedDifference) {
   const std::vector<uint8_t> rgba = {90, 50, 80, 255, 0, 0, 0, 0};
   const TestImage test{2, 1, rgba, {}};
   const Colour background = {200, 200, 200};
+  const std::vector<float> flip = {0, 1};
   ASSERT_TRUE(writeReferencePicture(directory.path(), "cam", reference, background));
-  ASSERT_TRUE(writeRendererPictures(directory.path(), "cam", "A", reference, test, background));
+  ASSERT_TRUE(writeRendererPictures(directory.path(), {"cam", "A", test, flip}, reference, background));
   const auto truth = readPng(directory.path() / "cam.reference.png", 100);
   const auto own = readPng(directory.path() / "cam.A.png", 100);
   const auto difference = readPng(directory.path() / "cam.A.difference.png", 100);
-  ASSERT_TRUE(truth && own && difference);
+  const auto map = readPng(directory.path() / "cam.A.flip.png", 100);
+  ASSERT_TRUE(truth && own && difference && map);
   EXPECT_EQ(truth->pixels, (std::vector<uint8_t>{100, 50, 0, 110, 110, 110}));
   EXPECT_EQ(own->pixels, (std::vector<uint8_t>{90, 50, 80, 200, 200, 200}));
   EXPECT_EQ(difference->pixels, (std::vector<uint8_t>{40, 0, 255, 255, 255, 255}));  // 4 times 10, 0, 80, 90
+  EXPECT_EQ(map->pixels, (std::vector<uint8_t>{0, 0, 4, 252, 253, 191})) << "the ends of magma, #000004 and #fcfdbf";
 }
 
 }  // namespace

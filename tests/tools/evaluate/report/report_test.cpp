@@ -104,11 +104,11 @@ TEST(ReportJson, HoldsEveryMemberOfTheContractAndIsFinite) {
   const Json json = Json::parse(reportJson(Facts().facts, twoCameras()).dump());
   ASSERT_EQ(json["entries"].size(), 4u);
   for (const Json& entry : json["entries"]) {
-    for (const char* text : {"camera", "renderer", "class"}) EXPECT_TRUE(entry.at(text).is_string()) << text;
+    for (const char* text : {"camera", "stem", "renderer", "class"}) EXPECT_TRUE(entry.at(text).is_string()) << text;
     EXPECT_TRUE(entry.at("settings").is_object());
     for (const char* number :
-         {"paperErrorSum", "paperError", "mae", "psnr", "ssim", "p95", "p99", "holeRate", "leakRate", "coverageBias",
-          "impostorShare", "cpuMs", "triangles", "texels", "bytesRead"})
+         {"paperErrorSum", "paperError", "mae", "psnr", "ssim", "flip", "p95", "p99", "holeRate", "leakRate",
+          "coverageBias", "impostorShare", "cpuMs", "triangles", "texels", "bytesRead"})
       EXPECT_TRUE(entry.at(number).is_number()) << number;
     for (const char* number : {"median", "p95", "max"})
       EXPECT_TRUE(entry.at("frameMs").at(number).is_number()) << number;

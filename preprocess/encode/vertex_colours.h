@@ -1,0 +1,17 @@
+// Textures as vertex colours: pages of full triangles have no others.
+#pragma once
+
+#include <vector>
+
+#include "preprocess/mesh/texture_sampler.h"
+#include "preprocess/partition/grid_triangles.h"
+
+namespace farcell {
+
+// The triangles with their textures multiplied into the colours of their corners. A corner gets the mean of the texture
+// over the nearest quarter of each triangle that meets there - within the triangles, since beyond them an image may
+// hold anything. Corners of one place on the grid and on the texture (and one colour) keep one colour, so that they
+// remain one vertex. REQUIRES: textures, when a triangle has one.
+std::vector<GridTriangle> withTexturesAsColours(GridTriangles triangles, TextureSampler* textures);
+
+}  // namespace farcell

@@ -1,0 +1,31 @@
+// Filtered looks at the textures of a mesh: what the pipeline needs of images, whoever reads them.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "cache/base/result.h"
+
+namespace farcell {
+
+// A place on a texture and the parallelogram around it that is averaged, in texture coordinates (mesh_reader.h).
+struct TextureLookup {
+  uint32_t texture = 0;  // index into MeshReader::textures()
+  glm::vec2 at{0};
+  glm::vec2 alongX{0}, alongY{0};  // whole sides of the parallelogram; zero: a point
+};
+
+// For one thread. The same lookup gives the same bits from any sampler of the same textures.
+class TextureSampler {
+ public:
+  virtual ~TextureSampler() = default;
+  // Mean display values, R, G, B in [0, 1]: what a vertex colour is multiplied with. White, which changes no colour,
+  // for a texture that could not be read. Numbers that are not finite are taken as zero.
+  virtual glm::vec3 sample(const TextureLookup& lookup) = 0;
+  // Why what was sampled so far cannot be trusted: scratch could not be read.
+  virtual const std::optional<Error>& failure() const = 0;
+};
+
+}  // namespace farcell

@@ -1,0 +1,6 @@
+include(${CMAKE_CURRENT_LIST_DIR}/../libraries.cmake)
+find_package(embree 3.13 REQUIRED)
+pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(lzma REQUIRED IMPORTED_TARGET liblzma)
+find_package(ZLIB REQUIRED)
+farcell_tests(bench/wscg2010/test DEPS farcell_tests_bench_wscg2010_measure embree PkgConfig::webp PkgConfig::lzma ZLIB::ZLIB)

@@ -1,0 +1,10 @@
+# The encoders of what a glTF file may be compressed by.
+find_package(meshoptimizer REQUIRED)
+farcell_tests(preprocess/read/gltf DEPS farcell_preprocess_read farcell_tests_support meshoptimizer::meshoptimizer)
+if(FARCELL_DRACO)
+  find_package(draco QUIET CONFIG)
+endif()
+if(FARCELL_DRACO AND draco_FOUND)
+  target_link_libraries(preprocess_read_gltf_test PRIVATE draco::draco)
+  target_compile_definitions(preprocess_read_gltf_test PRIVATE FARCELL_HAS_DRACO)
+endif()

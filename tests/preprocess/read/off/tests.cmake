@@ -1,0 +1,1 @@
+farcell_tests(preprocess/read/off DEPS farcell_preprocess_read)

@@ -1,0 +1,1 @@
+farcell_tests(preprocess/read/scene DEPS farcell_preprocess_read farcell_preprocess_read_scene)

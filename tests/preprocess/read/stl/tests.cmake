@@ -1,0 +1,1 @@
+farcell_tests(preprocess/read/stl DEPS farcell_preprocess_read)

@@ -1,0 +1,162 @@
+// The page on reports made by hand, without pictures; the whole program's page is evaluate_page_gl_test.cpp.
+#include "tools/evaluate/report/page.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/chromium.h"
+#include "tests/support/evaluate_directory.h"
+#include "tools/evaluate/report/names.h"
+#include "tools/evaluate/report/report.h"
+#include "tools/evaluate/report/summary.h"
+
+namespace farcell {
+namespace {
+
+using testing::Chromium;
+using testing::countOf;
+using testing::TemporaryDirectory;
+
+const std::string kHostile =
+    "</script><!--<script>\"'&amp;<img src=x onerror=\"document.title='owned'\">{{data}}\xff\x01";
+
+std::vector<Entry> entriesOf(const std::vector<std::string>& names) {
+  const std::vector<std::string> stems = fileStems(names);
+  const std::vector<RendererPlan> plans = planRenderers(kAllRenderers, 640, 360, {}).value();
+  std::vector<Entry> entries;
+  for (size_t camera = 0; camera < names.size(); ++camera)
+    for (const RendererPlan& plan : plans) {
+      const auto number = static_cast<double>(entries.size());
+      Entry entry;
+      entry.camera = names[camera];
+      entry.stem = stems[camera];
+      entry.renderer = plan;
+      entry.metrics.paperError = 5 + static_cast<double>(entries.size() * 37 % 101);
+      entry.metrics.flip = 0.001 * number;
+      entry.metrics.psnr = 20 + number / 10;
+      entry.frame = frameTimes({1 + number});
+      entry.cpuMs = 2 + number;
+      entry.bytesRead = entries.size() * 1000;  // one has read nothing: 0 on a logarithmic axis
+      entry.triangles = plan.rendererClass == "impostor" ? 0 : 1000;
+      entries.push_back(entry);
+    }
+  setRatios(entries);
+  return entries;
+}
+
+class Page : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!testing::haveChromium()) GTEST_SKIP() << "chromium is not installed";
+    directory_.sourceName = kHostile;
+    facts_.packName = kHostile;
+    facts_.directory = &directory_;
+    facts_.width = 640;
+    facts_.height = 360;
+    facts_.timedFrames = 1;
+    facts_.glRenderer = kHostile;
+    facts_.referenceKind = "pack";
+    facts_.referenceSamples = 64;
+  }
+
+  std::filesystem::path write(const std::vector<Entry>& entries, const std::string& script = "") const {
+    std::string page = reportPage(reportJson(facts_, entries));
+    if (!script.empty()) page.insert(page.rfind("</body>"), "<p id=result></p><script>" + script + "</script>");
+    std::ofstream(scratch_.path() / "index.html", std::ios::binary) << page;
+    return scratch_.path() / "index.html";
+  }
+
+  TemporaryDirectory scratch_;
+  Directory directory_;
+  ReportFacts facts_;
+  Chromium chromium_{scratch_.path()};
+};
+
+TEST_F(Page, DrawsHundredsOfEntries) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 60; ++i) names.push_back("camera " + std::to_string(i));
+  const std::string dom = chromium_.domOf(write(entriesOf(names)));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_EQ(countOf(dom, "class=\"point\""), 2u * 60 * 7) << "one in each plot";
+  EXPECT_EQ(countOf(dom, "class=\"median\""), 2u * 7);
+  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 60u * 7);
+  EXPECT_NE(dom.find("420 of 420 entries"), std::string::npos);
+}
+
+TEST_F(Page, NamesFromOutsideStayText) {
+  const std::string dom = chromium_.domOf(write(entriesOf({kHostile, kHostile, ""})), "#camera=%3Cb%3E&y=constructor");
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 3u * 7) << "cameras of one name are kept apart";
+  EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
+  EXPECT_EQ(dom.find("<title>owned"), std::string::npos);
+  EXPECT_NE(dom.find("&lt;img src=x onerror="), std::string::npos);
+  EXPECT_NE(dom.find("{{data}}"), std::string::npos) << "what was put in is not searched again";
+}
+
+TEST_F(Page, SaysWhenTheRunWasInterrupted) {
+  EXPECT_NE(chromium_.domOf(write(entriesOf({"a"}))).find("id=\"incomplete\" class=\"banner\" hidden"),
+            std::string::npos);
+  facts_.complete = false;
+  const std::string dom = chromium_.domOf(write(entriesOf({"a"})));
+  EXPECT_NE(dom.find("id=\"incomplete\" class=\"banner\">Incomplete: "), std::string::npos);
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u);
+}
+
+TEST_F(Page, FollowsWhatAReaderDoes) {
+  // Each step notes what it changed.
+  const std::string script = R"js(
+    const notes = [], all = (selector) => [...document.querySelectorAll(selector)];
+    const note = (value) => notes.push(String(value));
+    note(all("#plot-time .point").length);
+    document.querySelector("#legend button").click();                          // hides full-1spp
+    note(all("#plot-time .point").length);
+    const metric = document.getElementById("metric");
+    metric.value = "ratioToFull1spp";
+    metric.dispatchEvent(new Event("change"));
+    note(all(".level").length);                                                // the line at 1, in both plots
+    const heading = all("#entries thead button").find((button) => button.textContent === "Error");
+    const errors = () => all("#entries tbody tr").map((row) => Number(row.children[2].textContent));
+    const sorted = (values) => values.every((value, i) => i === 0 || values[i - 1] <= value);
+    heading.click();
+    note(sorted(errors()));
+    heading.click();
+    note(sorted(errors().reverse()));
+    const filter = document.getElementById("filter");
+    filter.value = "FULL-16";
+    filter.dispatchEvent(new Event("input"));
+    note(document.getElementById("shown").textContent);
+    const point = all("#plot-time .point")[0].getBoundingClientRect();
+    document.querySelector("#plot-time > svg").dispatchEvent(new PointerEvent("pointermove",
+      { clientX: point.x + point.width / 2, clientY: point.y + point.height / 2 }));
+    note(document.querySelector("#plot-time .readout").hidden);
+    note(all("#plot-bytes .ring").length);
+    all("#entries tbody tr").find((row) => row.textContent.startsWith("two") && row.textContent.includes("flat")).click();
+    note(all("#picture-controls select").map((node) => node.value));
+    all(".buttons button").find((button) => button.value === "flip").click();
+    note(all(".key").map((node) => node.textContent));
+    note(decodeURIComponent(location.hash).includes("y=ratioToFull1spp") && location.hash.includes("mode=flip"));
+    document.getElementById("result").textContent = notes.join(" | ");
+  )js";
+  const std::string dom = chromium_.domOf(write(entriesOf({"one", "two"}), script));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_NE(dom.find("<p id=\"result\">14 | 12 | 2 | true | true | 2 of 14 entries | false | 1 | two,reference,flat | "
+                     "FLIP, 0 to 1 | true</p>"),
+            std::string::npos)
+      << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 400);
+}
+
+TEST(ReportPage, IsWholeAndHoldsNoMarkupFromOutside) {
+  Directory directory;
+  ReportFacts facts;
+  facts.directory = &directory;
+  facts.packName = kHostile;
+  const std::string page = reportPage(reportJson(facts, entriesOf({kHostile})));
+  EXPECT_EQ(countOf(page, "</script>"), 3u) << "its own three";
+  EXPECT_EQ(page.find("<img"), std::string::npos);
+  EXPECT_EQ(page.find("{{style}}"), std::string::npos);
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+}
+
+}  // namespace
+}  // namespace farcell

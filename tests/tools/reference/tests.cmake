@@ -1,0 +1,1 @@
+farcell_tests(tools/reference DEPS farcell_tools_reference)

@@ -1,0 +1,1 @@
+farcell_tests(tools/view/controls DEPS farcell_tools_view_controls)

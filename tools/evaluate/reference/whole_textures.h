@@ -1,0 +1,33 @@
+// The textures of a mesh in memory, looked at point by point: the truth averages samples, not the texture.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "preprocess/texture/image_rows.h"
+
+namespace farcell {
+
+class WholeTextures {
+ public:
+  WholeTextures() = default;
+  // An image that cannot be read is white: its triangles keep the colours they have without it, as in a build. Ends
+  // with `cancelled` on Ctrl-C.
+  static Result<WholeTextures> read(std::span<const TextureSource> sources);
+
+  bool empty() const { return textures_.empty(); }
+  // Between the four nearest pixels; R, G, B in [0, 1]. Any thread.
+  glm::vec3 colourAt(uint32_t texture, glm::vec2 at) const;
+
+ private:
+  struct Texture {
+    TextureImage image;  // empty: white
+    TextureWrap wrapU, wrapV;
+  };
+  std::vector<Texture> textures_;
+};
+
+}  // namespace farcell

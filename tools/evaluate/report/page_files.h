@@ -1,0 +1,11 @@
+// The files of page/, built into the program (cmake/embed.cmake writes the definition).
+#pragma once
+
+#include <string_view>
+
+namespace farcell {
+
+// Text of the file at `path` (from the repository root); data() is null when there is none.
+std::string_view reportPageFile(std::string_view path);
+
+}  // namespace farcell

@@ -1,0 +1,94 @@
+#include "tools/options/draw_options.h"
+
+#include <map>
+
+#include "runtime/camera/overview.h"
+#include "tools/cli/cli.h"
+
+namespace farcell {
+namespace {
+
+const std::map<std::string, RenderMode> kModes = {{"auto", RenderMode::automatic},
+                                                  {"impostors", RenderMode::impostors},
+                                                  {"triangles", RenderMode::triangles},
+                                                  {"full", RenderMode::full}};
+const std::map<std::string, ImpostorKind> kKinds = {{"flat", ImpostorKind::flat}, {"A", ImpostorKind::depthCorrected}};
+
+}  // namespace
+
+void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& background) {
+  app.add_option("pack", options.pack, "pack file (.far)")->required();
+  app.add_option("--camera", options.cameras, "camera file (JSON); without it: an overview of the model");
+  app.add_option("--camera-name", options.cameraName, "which camera of the file; default: the first")
+      ->type_name("NAME");
+  app.add_option("--size", options.size, "width x height in pixels, 1x1 to 16384x16384")
+      ->type_name("WxH")
+      ->capture_default_str();
+  app.add_option("--mode", options.mode, "what is drawn; triangles: all leaves in view, full: all leaves")
+      ->check(CLI::IsMember(kModes))
+      ->capture_default_str();
+  app.add_option("--kind", options.kind, "of impostors: A is depth-corrected")
+      ->check(CLI::IsMember(kKinds))
+      ->capture_default_str();
+  app.add_option("--triangle-budget", options.triangleBudget, "most triangles of a frame in mode auto, e.g. 500k")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  app.add_option("--texel-pixels", options.texelPixels,
+                 "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  app.add_option("--samples", options.samples, "samples per pixel, of triangles")
+      ->check(CLI::IsMember({"1", "4", "16"}))
+      ->capture_default_str();
+  app.add_option("--background", options.background, "colour behind the model, 0 to 255 each; default: " + background)
+      ->type_name("R,G,B");
+  app.add_option("--resident-bytes", options.residentBytes, "how many bytes of the pack are kept on the GPU, e.g. 500M")
+      ->type_name("COUNT")
+      ->capture_default_str();
+}
+
+Result<DrawPlan> planOf(const DrawOptions& options) {
+  DrawPlan plan;
+  FARCELL_ASSIGN(const ImageSize size, parseImageSize(options.size));
+  plan.settings.selection.mode = kModes.at(options.mode);
+  plan.settings.kind = kKinds.at(options.kind);
+  FARCELL_ASSIGN(plan.settings.selection.triangleBudget, parseCount(options.triangleBudget));
+  plan.settings.selection.texelPixels = options.texelPixels;
+  FARCELL_ASSIGN(plan.residentBytes, parseCount(options.residentBytes));
+  if (options.cameras.empty() && !options.cameraName.empty())
+    return fail(ErrorKind::invalidArgument, "--camera-name needs --camera");
+  plan.settings.width = size.width;
+  plan.settings.height = size.height;
+  plan.settings.samplesPerPixel = options.samples;
+  if (!options.background.empty()) {
+    FARCELL_ASSIGN(plan.background, parseColour("--background", options.background));
+  }
+  return plan;
+}
+
+Result<Camera> chooseCamera(const DrawOptions& options, const Model& model, int width, int height) {
+  if (options.cameras.empty()) {
+    const glm::dvec3 min = model.grid.worldFromGrid(model.bounds.min);
+    const glm::dvec3 max = model.grid.worldFromGrid(model.bounds.max);
+    return overviewCamera(min, max, upVector(model.settings.up), static_cast<double>(width) / height);
+  }
+  FARCELL_ASSIGN(const std::vector<Camera> cameras, readCameras(options.cameras));
+  if (options.cameraName.empty()) return cameras.front();
+  for (const Camera& camera : cameras)
+    if (camera.name == options.cameraName) return camera;
+  return fail(ErrorKind::invalidArgument, "{}: no camera is named '{}'", options.cameras, options.cameraName);
+}
+
+const char* modeName(RenderMode mode) {
+  for (const auto& [name, value] : kModes)
+    if (value == mode) return name.c_str();
+  return "";
+}
+
+const char* kindName(ImpostorKind kind) {
+  for (const auto& [name, value] : kKinds)
+    if (value == kind) return name.c_str();
+  return "";
+}
+
+}  // namespace farcell

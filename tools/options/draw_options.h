@@ -1,0 +1,49 @@
+// How a pack is drawn, as the command lines of render and view say it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cache/base/result.h"
+#include "cache/schema/model.h"
+#include "runtime/renderer.h"
+
+namespace farcell {
+
+// As typed.
+struct DrawOptions {
+  std::string pack;
+  std::string cameras;     // empty: an overview
+  std::string cameraName;  // empty: the first
+  std::string size = "1280x720";
+  std::string mode = "auto";
+  std::string kind = "A";
+  std::string triangleBudget = "500k";
+  double texelPixels = kTexelPixels;
+  int samples = 4;
+  std::string background;  // empty: the program's own
+  std::string residentBytes = "1G";
+};
+
+// As meant.
+struct DrawPlan {
+  RenderSettings settings;
+  std::optional<std::array<uint8_t, 3>> background;
+  uint64_t residentBytes = 0;
+};
+
+// `background` says what the program draws behind the model unless told otherwise.
+void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& background);
+Result<DrawPlan> planOf(const DrawOptions& options);
+
+// The camera asked for, or an overview of the model in a picture of that shape.
+Result<Camera> chooseCamera(const DrawOptions& options, const Model& model, int width, int height);
+
+// As the options spell them.
+const char* modeName(RenderMode mode);
+const char* kindName(ImpostorKind kind);
+
+}  // namespace farcell
