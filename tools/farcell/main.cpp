@@ -28,6 +28,7 @@ constexpr std::array kVerbs = {
     Verb{"verify", "check every byte of a pack"},
     Verb{"render", "draw a picture of a pack"},
     Verb{"view", "walk through a pack in a window"},
+    Verb{"extract", "write the views of a pack as pictures"},
     Verb{"evaluate", "measure pictures of a pack against the full geometry"},
 };
 

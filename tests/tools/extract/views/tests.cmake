@@ -1,0 +1,3 @@
+find_package(nlohmann_json REQUIRED)
+farcell_tests(tools/extract/views DEPS farcell_tests_support farcell_tools_extract_views nlohmann_json::nlohmann_json)
+add_dependencies(tools_extract_views_test farcell-extract)

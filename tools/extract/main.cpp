@@ -1,0 +1,77 @@
+// farcell-extract: the views of a pack as pictures.
+#include <cstdio>
+
+#include "tools/cli/cli.h"
+#include "tools/extract/views/extract.h"
+#include "tools/report/build_report_json.h"
+
+namespace farcell {
+namespace {
+
+// As typed.
+struct ExtractOptions {
+  std::string pack;
+  std::string cell = "all";
+  std::string views = "all";
+  std::string channel = "colour";
+  std::string output;
+  bool full = false;
+  bool atlas = false;
+  bool json = false;
+};
+
+void addOptions(CLI::App& app, ExtractOptions& options) {
+  app.add_option("pack", options.pack, "pack file (.far)")->required();
+  app.add_option("--cell", options.cell, "a cell's number, its level/x/y/z, or all that have views")
+      ->type_name("CELL")
+      ->capture_default_str();
+  app.add_option("--views", options.views, "all, or numbers and ranges: 0,7,12-20")
+      ->type_name("LIST")
+      ->capture_default_str();
+  app.add_option("--channel", options.channel,
+                 "colour: with coverage as alpha; depth: 0 unknown, 255 nearest; normal: of packs that have them")
+      ->check(CLI::IsMember({"colour", "coverage", "depth", "normal"}))
+      ->capture_default_str();
+  app.add_flag("--full", options.full, "the whole square of each view, not only the part that holds anything");
+  app.add_flag("--atlas", options.atlas, "all views of a cell in one picture, with a JSON file that names its tiles");
+  app.add_flag("--json", options.json, "print what was written as JSON on stdout");
+  app.add_option("-o,--output", options.output, "directory to write to; made where it is missing")->required();
+}
+
+Result<> run(const ExtractOptions& options) {
+  ExtractSettings settings;
+  FARCELL_ASSIGN(settings.channel, parseChannel(options.channel));
+  FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
+  const Directory& directory = pack.directory();
+  FARCELL_ASSIGN(settings.cells, parseCells(options.cell, directory));
+  FARCELL_ASSIGN(settings.views, parseViews(options.views, static_cast<uint32_t>(directory.model.settings.views)));
+  settings.full = options.full;
+  settings.atlas = options.atlas;
+  settings.directory = options.output;
+  FARCELL_ASSIGN(const nlohmann::ordered_json result, extractViews(pack, settings));
+  if (options.json) {
+    std::printf("%s\n", jsonText(result).c_str());
+    return {};
+  }
+  for (const auto& file : result["written"]) std::printf("%s\n", file["file"].get<std::string>().c_str());
+  std::fprintf(stderr, "%zu pictures, %llu views hold nothing\n", result["written"].size(),
+               static_cast<unsigned long long>(result["empty"].get<uint64_t>()));
+  return {};
+}
+
+}  // namespace
+}  // namespace farcell
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Writes the views of a pack as PNG pictures.\n"
+      "One picture a view, or one a cell with --atlas.",
+      "farcell-extract");
+  app.footer(
+      "Examples:\n"
+      "  farcell extract city.far --cell 0 --atlas -o views/\n"
+      "  farcell extract city.far --cell 3/1/4/2 --views 0-11 --channel depth --full -o views/\n");
+  farcell::ExtractOptions options;
+  farcell::addOptions(app, options);
+  return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options); });
+}
