@@ -1,0 +1,66 @@
+// Frames laid over what is behind the model, as a window shows them.
+#include <gtest/gtest.h>
+
+#include "tests/runtime/renderer_fixture.h"
+
+namespace farcell {
+namespace {
+
+constexpr Backdrop kStripes = {{0, 0, 250}, {0, 250, 0}, {250, 0, 0}};
+
+DrawnPack sphere() {
+  return openDrawn(sphereTriangles({0, 0, 0}, 5, 3, 0x00ffffff),
+                   {.level = 1, .views = 12, .imageSize = 32, .samplesPerEdge = 1});
+}
+
+std::array<int, 3> at(const FrameImage& image, int x, int y) {
+  const size_t first = static_cast<size_t>(y * image.width + x) * 4;
+  return {image.rgba[first], image.rgba[first + 1], image.rgba[first + 2]};
+}
+
+TEST(Backdrop, ofOneColourIsTheOfflinePictureOverThatColour) {
+  DrawnPack pack = sphere();
+  const Camera camera = lookAt({20, 3, 4}, {0, 0, 0});
+  for (const int samples : {1, 4, 16}) {
+    const RenderSettings settings = sized(120, 90, RenderMode::full, samples);
+    FrameImage image;
+    pack.draw(camera, settings, image);
+    const auto expected = overBackground(image.rgba, {9, 200, 33});
+    const auto shown = pack.renderer->capture(camera, settings, {{9, 200, 33}, {9, 200, 33}, {9, 200, 33}});
+    ASSERT_TRUE(shown) << shown.error().message;
+    int worst = 0;
+    for (size_t pixel = 0; pixel < expected.size() / 3; ++pixel)
+      for (size_t channel = 0; channel < 3; ++channel)
+        worst = std::max(worst, std::abs(shown->rgba[4 * pixel + channel] - expected[3 * pixel + channel]));
+    EXPECT_LE(worst, samples == 16 ? 3 : 1) << samples;  // 16: rounded after each of four passes
+  }
+}
+
+TEST(Backdrop, aSkyIsUprightByTheModelWhereverTheCameraLooks) {
+  DrawnPack pack = sphere();
+  const RenderSettings settings = sized(64, 64, RenderMode::full);
+  const auto centre = [&](glm::dvec3 direction) {
+    const auto shown = pack.renderer->capture(lookAt({50, 50, 50}, glm::dvec3(50) + direction), settings, kStripes);
+    if (!shown) throw std::runtime_error(shown.error().message);
+    return at(*shown, 32, 32);
+  };
+  EXPECT_GT(centre({0, 0.001, 1})[2], 240);   // the zenith
+  EXPECT_GT(centre({0, 0.001, -1})[0], 240);  // below
+  EXPECT_GT(centre({1, 0, 0})[1], 170);       // about the horizon
+  EXPECT_GT(centre({0, 1, 0.5})[2], centre({0, 1, 0.1})[2]);
+  const auto level = pack.renderer->capture(lookAt({50, 50, 50}, {60, 50, 50}), settings, kStripes);
+  ASSERT_TRUE(level);
+  EXPECT_GT(at(*level, 32, 2)[2], 50);  // row 0 is the top: sky there, not ground
+  EXPECT_EQ(at(*level, 32, 2)[0], 0);
+  EXPECT_GT(at(*level, 32, 61)[0], 50);
+}
+
+TEST(Backdrop, aPictureThatCannotBeIsRefused) {
+  DrawnPack pack = sphere();
+  const auto shown = pack.renderer->capture(lookAt({20, 3, 4}, {0, 0, 0}), sized(0, 64, RenderMode::full), kStripes);
+  ASSERT_FALSE(shown);
+  EXPECT_EQ(shown.error().kind, ErrorKind::invalidArgument);
+}
+
+}  // namespace
+}  // namespace farcell
