@@ -23,6 +23,21 @@ void neutralise(json& root) {
     if (!accessor.contains("bufferView")) accessor["bufferView"] = views;
 }
 
+// It looks them up without saying which are not there.
+Result<> checkIndices(const std::string& path, const json& root) {
+  const size_t accessors = root.contains("accessors") ? root["accessors"].size() : 0;
+  const json none = json::array();
+  const json& meshes = root.contains("meshes") ? root["meshes"] : none;
+  for (size_t mesh = 0; mesh < meshes.size(); ++mesh)
+    for (size_t number = 0; number < meshes[mesh]["primitives"].size(); ++number) {
+      const auto indices = meshes[mesh]["primitives"][number].value("indices", uint64_t{0});
+      if (indices < std::max<size_t>(accessors, 1)) continue;
+      return GltfPlace{path, fmt::format("meshes[{}].primitives[{}].indices", mesh, number)}.bad(
+          fmt::format("one of {} accessors", accessors), std::to_string(indices));
+    }
+  return {};
+}
+
 // It has nothing left to open; should it try, it finds nothing.
 void closeFileSystem(tinygltf::TinyGLTF& loader) {
   tinygltf::FsCallbacks callbacks{};
@@ -51,6 +66,7 @@ bool isComplete(const tinygltf::Model& model, const json& root) {
 }  // namespace
 
 Result<tinygltf::Model> loadModel(const std::string& path, json root) {
+  FARCELL_TRY(checkIndices(path, root));
   neutralise(root);
   const GltfPlace place{path, "JSON"};
   tinygltf::TinyGLTF loader;

@@ -63,6 +63,7 @@ Coded encode(const Soup& input, int method) {
   const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
   draco::Encoder encoder;
   encoder.SetEncodingMethod(method);
+  encoder.SetTrackEncodedProperties(true);
   encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 16);
   draco::EncoderBuffer buffer;
   EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
