@@ -180,7 +180,8 @@ TEST_F(TexturedBuild, WithoutItsImageAModelKeepsItsColoursAndTheReportSaysSo) {
     const PackFile pack = open(name);
     for (const CellRecord& cell : pack.directory().cells) {
       if (cell.geometryPage == kNone) continue;
-      for (const uint32_t colour : pack.readGeometry(cell.geometryPage).value().colours) EXPECT_EQ(colour, 0x0033ffu);
+      const GeometryPage page = pack.readGeometry(cell.geometryPage).value();
+      for (const uint32_t colour : page.colours) EXPECT_EQ(colour, 0x0033ffu);
     }
   }
 }
@@ -195,7 +196,8 @@ TEST_F(TexturedBuild, SpotIsACowWithADarkAndALightSide) {
   size_t dark = 0, light = 0;
   for (const CellRecord& cell : pack.directory().cells) {
     if (cell.geometryPage == kNone) continue;
-    for (const uint32_t colour : pack.readGeometry(cell.geometryPage).value().colours) {
+    const GeometryPage page = pack.readGeometry(cell.geometryPage).value();
+    for (const uint32_t colour : page.colours) {
       dark += (colour >> 8 & 255) < 90 ? 1 : 0;
       light += (colour >> 8 & 255) > 220 ? 1 : 0;
     }
