@@ -13,8 +13,6 @@ target_compile_options(farcell_settings INTERFACE -Wall -Wextra -Wpedantic -Wsha
 target_compile_definitions(farcell_settings INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_XYZW_ONLY
                                                       FARCELL_VERSION="${PROJECT_VERSION}")
 target_link_libraries(farcell_settings INTERFACE Threads::Threads)
-# Messages name a source file from the root of the repository, wherever that lay: programs do not tell of the build.
-target_compile_options(farcell_settings INTERFACE -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 # Sanitizers make GCC see what is not there (-Wmaybe-uninitialized, -Wrestrict): there, warnings stay warnings.
 if(FARCELL_WERROR AND NOT FARCELL_SANITIZE)
   target_compile_options(farcell_settings INTERFACE -Werror)

@@ -13,13 +13,14 @@ namespace farcell {
 }
 }  // namespace farcell
 
-#define FARCELL_CHECK(condition)                                                  \
-  do {                                                                            \
-    if (!(condition)) ::farcell::checkFailed(__FILE__, __LINE__, #condition, ""); \
+// __FILE_NAME__: a program does not tell where it was built.
+#define FARCELL_CHECK(condition)                                                       \
+  do {                                                                                 \
+    if (!(condition)) ::farcell::checkFailed(__FILE_NAME__, __LINE__, #condition, ""); \
   } while (false)
 
-#define FARCELL_CHECK_EQ(a, b)                                                                         \
-  do {                                                                                                 \
-    if (!((a) == (b)))                                                                                 \
-      ::farcell::checkFailed(__FILE__, __LINE__, #a " == " #b, fmt::format(" ({} against {})", a, b)); \
+#define FARCELL_CHECK_EQ(a, b)                                                                              \
+  do {                                                                                                      \
+    if (!((a) == (b)))                                                                                      \
+      ::farcell::checkFailed(__FILE_NAME__, __LINE__, #a " == " #b, fmt::format(" ({} against {})", a, b)); \
   } while (false)

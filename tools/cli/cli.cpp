@@ -44,8 +44,8 @@ std::string referenceDate() {
   }
   std::tm day{};
   std::array<char, 16> date{};
-  if (::gmtime_r(&seconds, &day) == nullptr) return "1970-01-01";
-  return {date.data(), std::strftime(date.data(), date.size(), "%Y-%m-%d", &day)};
+  const bool known = ::gmtime_r(&seconds, &day) != nullptr && day.tm_year >= 0 && day.tm_year < 8000;
+  return known && std::strftime(date.data(), date.size(), "%Y-%m-%d", &day) > 0 ? date.data() : "1970-01-01";
 }
 
 std::string reference(const CLI::App& app, const std::string& form) {

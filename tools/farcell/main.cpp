@@ -75,6 +75,11 @@ void addVerbs(CLI::App& app) {
 int main(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (farcell::isVerb(word)) return farcell::runVerb(word, argv + 1);
+  std::string help = "--help";
+  if (const std::string verb = argc > 2 ? argv[2] : ""; (word == "help" || word == help) && farcell::isVerb(verb)) {
+    argv[2] = help.data();
+    return farcell::runVerb(verb, argv + 1);
+  }
   CLI::App app(
       "Walks through models larger than memory, with the error of every picture known.\n"
       "A model is built into a pack once; pictures are drawn from the pack. Each verb is a program of its own, whose "
@@ -85,7 +90,6 @@ int main(int argc, char** argv) {
     if (error.get_name() == "ValidationError") return "farcell: " + std::string(error.what()) + "\n";
     return (word.empty() ? word : "farcell: unknown verb '" + word + "'\n") + self->help();
   });
-  std::string help = "--help";
   if (word == "help") argv[1] = help.data();
   return farcell::runProgram(app, argc, argv, [] { return farcell::Result<>{}; });
 }

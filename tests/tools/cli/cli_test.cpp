@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <new>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -120,6 +121,37 @@ TEST(RunProgram, HelpAndVersionAreExitZeroOnStdout) {
   const Outcome version = run({"--version"}, mustNotRun);
   EXPECT_EQ(version.code, 0);
   EXPECT_NE(version.out.find(FARCELL_VERSION), std::string::npos);
+}
+
+TEST(RunProgram, PrintsItsReferenceInsteadOfWorkingAndRefusesOtherForms) {
+  for (const auto& [form, mark] : std::vector<std::pair<std::string, std::string>>{
+           {"man", ".TH FARCELL\\-COUNT 1 "}, {"bash", "complete -F"}, {"zsh", "#compdef"}, {"fish", "complete -c"}}) {
+    const Outcome outcome = run({"--print-reference", form}, mustNotRun);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.out.find(mark), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("number"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+  }
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--print-reference"}, {"--print-reference", "html"}}) {
+    const Outcome outcome = run(arguments, mustNotRun);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("--print-reference"), std::string::npos);
+  }
+}
+
+TEST(RunProgram, TheManualPageIsOfTheDayThatSourceDateEpochNames) {
+  const auto firstLine = [](const char* epoch) {
+    ::setenv("SOURCE_DATE_EPOCH", epoch, 1);
+    const std::string out = run({"--print-reference", "man"}, mustNotRun).out;
+    ::unsetenv("SOURCE_DATE_EPOCH");
+    return out.substr(0, out.find('\n'));
+  };
+  EXPECT_NE(firstLine("86400").find(" 1970-01-02 "), std::string::npos);
+  // Nonsense is today; what no calendar holds is the first day of all.
+  for (const char* epoch : {"", "soon", "99999999999999999999", "9223372036854775807", "-9223372036854775808"})
+    EXPECT_TRUE(std::regex_search(firstLine(epoch), std::regex(" \\d{4}-\\d\\d-\\d\\d "))) << epoch;
 }
 
 TEST(RunProgram, AFailureIsExitOneAndAnInvalidArgumentExitTwo) {

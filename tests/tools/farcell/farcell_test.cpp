@@ -93,6 +93,13 @@ TEST_F(FarcellTest, AVerbRunsBesideTheProgramWithItsArgumentsAsGivenAndItsExitCo
   EXPECT_EQ(outcome.out, "[a b.ply]\n[-o]\n[]\n[--help]\n[*]\n");
 }
 
+TEST_F(FarcellTest, HelpOfAVerbIsTheVerbsOwn) {
+  makeVerb("build", "echo \"$@\"");
+  EXPECT_EQ(run("help build").out, "--help\n");
+  EXPECT_EQ(run("--help build").out, "--help\n");
+  EXPECT_EQ(run("help bake").code, 0);  // of farcell: there is no such verb
+}
+
 TEST_F(FarcellTest, AVerbThatIsNotInstalledIsAFailureThatNamesTheProgramMissing) {
   const Outcome outcome = run("render");
   EXPECT_EQ(outcome.code, 1);
