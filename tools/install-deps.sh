@@ -15,8 +15,8 @@ packages=(
   libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
   # tools: command line, JSON, pictures, the ray tracer of the reference
   libcli11-dev nlohmann-json3-dev libopenimageio-dev libembree-dev
-  # tests and benchmarks
-  libgtest-dev libbenchmark-dev
+  # tests and benchmarks; the coders that the 2010 paper's images are tried with
+  libgtest-dev libbenchmark-dev libwebp-dev liblzma-dev
   # to unpack models that come compressed
   xz-utils
 )
