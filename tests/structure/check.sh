@@ -84,6 +84,7 @@ dependencies() {
   heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
+  heavy 'WebP, LZMA' '[<"](webp/|lzma\.h)' '^tests/bench/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'
   heavy tinygltf '[<"]tiny_gltf' '^(preprocess/read/gltf|tests)/'
   heavy draco '[<"]draco/' '^(preprocess/read/gltf|tests)/'

@@ -60,8 +60,8 @@ class Verdicts {
 Claim moreCells(const Judge& judge) {
   Verdicts verdicts;
   for (const SceneFacts& scene : judge.results.scenes) {
-    const std::vector<std::string> names = {paperVariant(0).name, paperVariant(2).name, paperVariant(3).name,
-                                            paperVariant(4).name};
+    std::vector<std::string> names = {paperVariant(0).name};
+    for (int depth = 2; depth <= judge.settings.depth; ++depth) names.push_back(paperVariant(depth).name);
     const bool falls = judge.atEveryDistance([&](double distance) {
       for (size_t i = 1; i < names.size(); ++i)
         if (judge.error(scene.name, names[i], distance) >= judge.error(scene.name, names[i - 1], distance))
@@ -74,7 +74,7 @@ Claim moreCells(const Judge& judge) {
     verdicts.add(scene.name, falls, figures);
   }
   return verdicts.claim("With more cells the error is less",
-                        "(Mean error over all distances: single cell, depth 2, 3, 4; judged at each distance)");
+                        "(Mean error over all distances: single cell, depth 2 and so on; judged at each distance)");
 }
 
 Claim orthographic(const Judge& judge, const std::string& base, const std::string& text) {

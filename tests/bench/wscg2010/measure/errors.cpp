@@ -1,6 +1,7 @@
 #include "tests/bench/wscg2010/measure/errors.h"
 
 #include <memory>
+#include <optional>
 
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
@@ -53,20 +54,16 @@ void measureTriangles(Stage& stage, const ErrorSettings& settings, ErrorResults&
   measureAll(stage, frames, results.rows);
 }
 
-Result<> measureVariant(Stage& stage, const CellIndex& index, const Variant& variant, ErrorResults& results) {
-  FARCELL_TRY(checkInterrupt());
-  const std::vector<glm::dvec3> eyes = eyesOf(stage.cameras);
-  FARCELL_ASSIGN(const ImpostorSet impostors, ImpostorSet::bake(index, variant.impostors, eyes));
+void measureVariant(Stage& stage, const ImpostorSet& impostors, const Variant& variant, ErrorResults& results) {
   std::vector<FrameImage> frames;
   for (size_t i = 0; i < stage.cameras.size(); ++i) {
-    const std::vector<Billboard> billboards = impostors.seenFrom(eyes[i]);
+    const std::vector<Billboard> billboards = impostors.seenFrom(stage.cameras[i].camera.position);
     stage.painter.begin(stage.cameras[i].camera);
     stage.painter.drawBillboards(billboards, variant.draw);
     frames.push_back(stage.painter.read());
     results.rows.push_back(rowOf(stage, i, variant.name, billboards.size()));
   }
   measureAll(stage, frames, results.rows);
-  return {};
 }
 
 double meanOf(const ErrorResults& results, const std::string& scene, const std::string& variant, double distance,
@@ -86,13 +83,21 @@ Result<ErrorResults> measureErrors(const Scene& scene, const FullGeometry& full,
   Stage stage{scene, full, errorCameras(scene, settings.distances, settings.levelDirections), std::move(painter), {}};
   ErrorResults results;
   measureTriangles(stage, settings, results);
+  const std::vector<glm::dvec3> eyes = eyesOf(stage.cameras);
   std::unique_ptr<CellIndex> index;
-  for (const Variant& variant : allVariants()) {
+  std::optional<ImpostorSet> impostors;
+  for (const Variant& variant : settings.variants) {
+    FARCELL_TRY(checkInterrupt());
     if (!index || index->depth() != variant.depth) {
+      impostors.reset();
       index = std::make_unique<CellIndex>(scene, variant.depth);
       results.cells.push_back({scene.name, variant.depth, index->occupied().size()});
     }
-    FARCELL_TRY(measureVariant(stage, *index, variant, results));
+    if (!impostors || !(impostors->settings() == variant.impostors)) {
+      impostors.reset();
+      FARCELL_ASSIGN(impostors, ImpostorSet::bake(*index, variant.impostors, eyes));
+    }
+    measureVariant(stage, *impostors, variant, results);
   }
   return results;
 }

@@ -22,7 +22,7 @@ struct Variant {
 inline constexpr const char* kPaperVariant = "depth 4";
 inline constexpr const char* kTrianglesVariant = "triangles, 1 sample";
 
-// All variants that are measured. Those of one depth stand together.
+// All variants that are measured. Those of one depth stand together, and those of the same images.
 std::vector<Variant> allVariants();
 // The paper's way at a depth, and named changes of it; for pictures and times.
 Variant paperVariant(int depth);
@@ -33,6 +33,7 @@ struct ErrorSettings {
   int truthSamples = 64;
   std::vector<double> distances = {.5, 1, 2, 4};  // diameters
   int levelDirections = 4;                        // per distance, besides the steep one
+  std::vector<Variant> variants = allVariants();
 };
 
 struct ErrorRow {

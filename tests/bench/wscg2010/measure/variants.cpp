@@ -33,8 +33,8 @@ Variant withViews(const Variant& base, int views) {
   return variant;
 }
 
-void addFilters(std::vector<Variant>& variants) {
-  const Variant base = paperVariant(kPaperDepth);
+// Ways of drawing the images of `base`, then better images.
+void addDrawings(std::vector<Variant>& variants, const Variant& base) {
   Variant nearest = changed(base, "nearest texel");
   nearest.draw.filter = Filter::nearest;
   Variant blended = changed(base, "blended rim");
@@ -63,12 +63,12 @@ std::vector<Variant> allVariants() {
   for (const int depth : {2, 3, kPaperDepth}) {
     const Variant base = paperVariant(depth);
     variants.push_back(base);
+    if (depth == kPaperDepth) addDrawings(variants, base);
     for (const int fovDeg : {40, 60, 90}) variants.push_back(withFov(base, fovDeg));
     variants.push_back(withContent(base, "cut to the cube", Content::cube));
     variants.push_back(withContent(base, "grown 1.04", Content::grown));
     for (const int views : {80, 1280}) variants.push_back(withViews(base, views));
   }
-  addFilters(variants);
   return variants;
 }
 

@@ -28,6 +28,7 @@ struct ImageSettings {
       0;            // 0: orthographic; else the camera stands R / sin(fov / 2) from the centre of a sphere of radius R
   int size = 128;   // texels along the edge
   int samples = 1;  // per texel
+  bool operator==(const ImageSettings&) const = default;
 };
 
 // Half the width of an image on the plane through the cell's centre, over the radius of the enclosed sphere.

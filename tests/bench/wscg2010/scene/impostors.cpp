@@ -60,10 +60,4 @@ std::vector<Billboard> ImpostorSet::seenFrom(glm::dvec3 eye) const {
   return billboards;
 }
 
-size_t ImpostorSet::imageCount() const {
-  size_t count = 0;
-  for (const auto& images : images_) count += images.size();
-  return count;
-}
-
 }  // namespace farcell::wscg

@@ -15,6 +15,7 @@ struct ImpostorSettings {
   Content content = Content::sphere;
   int views = 320;
   ImageSettings image;
+  bool operator==(const ImpostorSettings&) const = default;
 };
 
 // A flat rectangle through the cell's centre, as the world sees it: `origin` is the image's lower left corner (its
@@ -35,8 +36,7 @@ class ImpostorSet {
 
   // From one of the eyes: a billboard for each cell whose image is not empty, the farthest cell first.
   std::vector<Billboard> seenFrom(glm::dvec3 eye) const;
-  const CellIndex& index() const { return *index_; }
-  size_t imageCount() const;
+  const ImpostorSettings& settings() const { return settings_; }
 
  private:
   ImpostorSet(const CellIndex& index, const ImpostorSettings& settings, Viewpoints viewpoints);

@@ -43,6 +43,7 @@ class Experiment : public testing::Test {
     settings.errors.truthSamples = 4;
     settings.times.frames = 2;
     settings.sizes.cells = 1;
+    std::erase_if(settings.errors.variants, [](const Variant& v) { return v.depth > 3; });
     return settings;
   }
 
@@ -59,7 +60,6 @@ void expectSoundErrors(const ErrorResults& errors) {
   EXPECT_LT(mean("depth 3, 1280 images", toSingle), mean("depth 3, 80 images", toSingle));
   EXPECT_LT(mean("depth 3", toSingle), mean("depth 3, perspective 90", toSingle));
   EXPECT_LE(mean("depth 3", holes), mean("depth 3, cut to the cube", holes));
-  for (const Variant& variant : allVariants()) EXPECT_GT(mean(variant.name, toSingle), 0) << variant.name;
 }
 
 void expectSoundSizes(const std::vector<SizeResult>& sizes) {
@@ -80,6 +80,7 @@ TEST_F(Experiment, GivesEveryTableClaimAndPictureOfATinyModel) {
   const auto results = runExperiment(settings);
   ASSERT_TRUE(results) << results.error().message;
   expectSoundErrors(results->errors);
+  EXPECT_EQ(results->errors.cells.size(), 3u);
   expectSoundSizes(results->sizes);
   ASSERT_EQ(results->times.size(), kSourceCount);
   for (const TimeRow& row : results->times) EXPECT_GT(row.frameMs, 0) << sourceName(row.source);
