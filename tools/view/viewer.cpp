@@ -9,7 +9,6 @@
 
 #include "cache/base/file.h"
 #include "cache/base/interrupt.h"
-#include "runtime/camera/overview.h"
 #include "tools/image/png.h"
 #include "tools/view/frame_figures.h"
 
@@ -167,6 +166,7 @@ void Viewer::openDropped(const std::filesystem::path& path) {
   if (!scene) return report(scene.error().message);
   std::swap(scene_, *scene);
   options_.pack = path;
+  problem_.clear();
   fitSize();
   stale_ = true;
 }
