@@ -35,6 +35,7 @@ GltfView viewOf(const json& object) {
   if (const auto extensions = object.find("extensions"); extensions != object.end())
     if (const auto found = extensions->find("EXT_meshopt_compression"); found != extensions->end())
       view.coding = codingOf(*found);
+  if (view.coding && view.coding->mode == "ATTRIBUTES" && view.stride == 0) view.stride = view.coding->stride;
   return view;
 }
 
@@ -122,6 +123,9 @@ Result<const GltfView*> GltfBuffers::checkedView(const GltfPlace& user, uint64_t
     FARCELL_TRY(checkExtent(at, view.buffer, view.offset, view.size));
     return &view;
   }
+  if (view.stride != 0 && view.stride != view.coding->stride)
+    return at.in("byteStride")
+        .bad(fmt::format("that of its coding, {}", view.coding->stride), std::to_string(view.stride));
   const GltfPlace codingAt = at.in("extensions.EXT_meshopt_compression");
   FARCELL_TRY(checkExtent(codingAt, view.coding->buffer, view.coding->offset, view.coding->size));
   FARCELL_TRY(checkMeshoptCoding(codingAt, *view.coding, view.size));

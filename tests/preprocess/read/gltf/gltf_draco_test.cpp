@@ -1,3 +1,5 @@
+#include <random>
+
 #include "tests/preprocess/read/gltf/gltf_support.h"
 
 #ifdef FARCELL_HAS_DRACO
@@ -117,6 +119,24 @@ TEST(GltfDraco, RefusesGarbageAndEveryTruncation) {
     }
     EXPECT_FALSE(
         readMesh(directory.write("model.glb", dracoFile({std::string(500, 'x'), good.points, good.faces}).glb())));
+  }
+}
+
+TEST(GltfDraco, SurvivesAnyChangedBytes) {
+  const TempDirectory directory;
+  constexpr uint32_t kSeed = 20240613;
+  SCOPED_TRACE(fmt::format("seed {}", kSeed));
+  std::mt19937 random(kSeed);
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    const Coded good = encode(soup(20), method);
+    for (int round = 0; round < fuzzRounds(); ++round) {
+      Coded changed = good;
+      for (uint32_t i = 0; i <= random() % 3; ++i)
+        changed.bytes[random() % good.bytes.size()] = static_cast<char>(random());
+      const auto result = readMesh(directory.write("model.glb", dracoFile(changed).glb()));  // checks the counts
+      const std::string message = result ? "expected" : result.error().message;
+      EXPECT_NE(message.find("expected"), std::string::npos) << message;
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // What the tests of the glTF reader share.
 #pragma once
 
+#include <cstdlib>
 #include <glm/geometric.hpp>
 
 #include "tests/preprocess/read/read_support.h"
@@ -13,6 +14,12 @@ using nlohmann::json;
 inline ReadMesh readGlb(const GltfWriter& writer) {
   const TempDirectory directory;
   return readGood(directory.write("model.glb", writer.glb()));
+}
+
+// Of the random tests; more where the variable says so.
+inline int fuzzRounds() {
+  const char* text = std::getenv("FARCELL_FUZZ_ROUNDS");
+  return text ? std::atoi(text) : 1500;
 }
 
 using Corners = std::array<glm::dvec3, 3>;

@@ -60,4 +60,26 @@ inline GltfWriter everything() {
   return writer;
 }
 
+class HostileGltf : public ::testing::Test {
+ protected:
+  Result<ReadMesh> readText(const std::string& text) const { return readMesh(directory_.write("model.gltf", text)); }
+  // The error must say which file, where in it, and what was expected.
+  void expectError(const Result<ReadMesh>& result, const std::string& where,
+                   ErrorKind kind = ErrorKind::corrupt) const {
+    ASSERT_FALSE(result) << where;
+    EXPECT_EQ(result.error().kind, kind) << result.error().message;
+    for (const std::string& part : {std::string("model.gl"), where, std::string("expected"), std::string("found")})
+      EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message << "\nlacks " << part;
+  }
+  // everything(), with the JSON pointer `at` set to `value`.
+  void expectErrorWith(const std::string& at, const json& value, const std::string& where,
+                       ErrorKind kind = ErrorKind::corrupt) const {
+    SCOPED_TRACE(at + " = " + value.dump());
+    GltfWriter writer = everything();
+    writer.root[json::json_pointer(at)] = value;
+    expectError(readMesh(directory_.write("model.glb", writer.glb())), where, kind);
+  }
+  const TempDirectory directory_;
+};
+
 }  // namespace farcell::test

@@ -6,12 +6,6 @@
 namespace farcell::test {
 namespace {
 
-// Rounds of the random tests; more where the variable says so.
-int rounds() {
-  const char* text = std::getenv("FARCELL_FUZZ_ROUNDS");
-  return text ? std::atoi(text) : 1500;
-}
-
 void expectError(const Result<ReadMesh>& result) {
   ASSERT_FALSE(result);
   for (const char* part : {"model.glb", "expected", "found"})
@@ -88,7 +82,7 @@ TEST(HostileGlb, SurvivesAnyChangedBytes) {
   std::mt19937 random(kSeed);
   const std::string whole = everything().glb();
   int readable = 0;
-  for (int round = 0; round < rounds(); ++round) {
+  for (int round = 0; round < fuzzRounds(); ++round) {
     std::string bytes = whole;
     for (uint32_t i = 0; i <= random() % 4; ++i) bytes[random() % bytes.size()] = static_cast<char>(random());
     readable += readMesh(directory.write("model.glb", bytes)).has_value();  // checks the counts where it is one
@@ -142,7 +136,7 @@ TEST(HostileGlb, SurvivesAnyChangedJson) {
   std::mt19937 random(kSeed);
   const GltfWriter good = everything();
   int readable = 0;
-  for (int round = 0; round < 2 * rounds(); ++round) {
+  for (int round = 0; round < 2 * fuzzRounds(); ++round) {
     GltfWriter writer = good;
     for (uint32_t i = 0; i <= random() % 2; ++i) {
       json* value = anyValue(writer.root, random);
@@ -153,7 +147,7 @@ TEST(HostileGlb, SurvivesAnyChangedJson) {
     const std::string message = result ? "expected" : result.error().message;
     EXPECT_NE(message.find("expected"), std::string::npos) << message;
   }
-  EXPECT_GT(readable, rounds() / 20);
+  EXPECT_GT(readable, fuzzRounds() / 20);
 }
 
 }  // namespace
