@@ -21,9 +21,9 @@ struct Window::Platform : GlContext::Platform {
   GLFWwindow* window = nullptr;
   Inbox inbox;
 
+  // GLFW is the process's, as the display is: ending it would unload the driver under threads that it may have left.
   ~Platform() override {
     if (window != nullptr) glfwDestroyWindow(window);
-    glfwTerminate();
   }
 };
 
