@@ -1,8 +1,8 @@
 // From mesh files to a pack file.
 //
-// The life of a build: openMeshes -> Textures::open -> partitionMesh (leaves in scratch) -> cellTreeOf (every cell up to
-// the root) -> bakeCell for each cell, on all threads, in file order -> PackWriter, in the same order whatever finishes
-// first. Same input and settings, same bytes, at any thread count.
+// The life of a build: openMeshes -> Textures::open -> partitionMesh (leaves in scratch) -> cellTreeOf (every cell up
+// to the root) -> bakeCell for each cell, on all threads, in file order -> PackWriter, in the same order whatever
+// finishes first. Same input and settings, same bytes, at any thread count.
 #pragma once
 
 #include <filesystem>
