@@ -21,7 +21,7 @@ struct Window::Platform : GlContext::Platform {
   GLFWwindow* window = nullptr;
   Inbox inbox;
 
-  // GLFW is the process's, as the display is: ending it would unload the driver under threads that it may have left.
+  // GLFW is the process's, as the display is: ending it would unload the driver, which then leaks what it holds.
   ~Platform() override {
     if (window != nullptr) glfwDestroyWindow(window);
   }
