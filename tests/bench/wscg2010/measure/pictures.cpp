@@ -12,22 +12,23 @@ namespace farcell::wscg {
 namespace {
 
 constexpr double kSideDistance = 0.5, kSteepDistance = 1, kCloserDistance = 0.5, kLinesDistance = 0.1;
+constexpr double kCropMargin = 1.08;
 constexpr double kNearShare = 0.3;  // of the cells, drawn as triangles in figure 15
 constexpr uint32_t kWire = 0x40d0ff, kOutline = 0x60ff60;
 
-// The paper's pictures are "cropped to fit the content": the same eye with the angle that shows the model's box.
+// The paper's pictures are "cropped to fit the content": the same eye with the angle that just shows the model.
 Camera cropped(const Scene& scene, Camera camera) {
   const CameraAxes axes = cameraAxes(camera);
   double slope = 0;
-  for (int i = 0; i < 8; ++i) {
-    const glm::dvec3 corner(i & 1 ? scene.max.x : scene.min.x, i & 2 ? scene.max.y : scene.min.y,
-                            i & 4 ? scene.max.z : scene.min.z);
-    const glm::dvec3 toCorner = corner - camera.position;
-    const double depth = -glm::dot(toCorner, axes.back);
-    const double across = std::abs(glm::dot(toCorner, axes.right)) * kPictureHeight / kPictureWidth;
-    slope = std::max({slope, std::abs(glm::dot(toCorner, axes.up)) / depth, across / depth});
+  for (const Triangle& triangle : scene.triangles) {
+    for (const glm::vec3& corner : triangle.corners) {
+      const glm::dvec3 toCorner = glm::dvec3(corner) - camera.position;
+      const double depth = -glm::dot(toCorner, axes.back);
+      const double across = std::abs(glm::dot(toCorner, axes.right)) * kPictureHeight / kPictureWidth;
+      slope = std::max({slope, std::abs(glm::dot(toCorner, axes.up)) / depth, across / depth});
+    }
   }
-  camera.fovYRad = 2 * std::atan(slope);
+  camera.fovYRad = 2 * std::atan(kCropMargin * slope);
   return camera;
 }
 
