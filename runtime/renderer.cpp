@@ -107,11 +107,14 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
   const FrameCamera frameCamera = makeFrameCamera(
       pack.directory(), camera,
       {settings.width, settings.height, jitterPx, settings.samplesPerPixel > 1 ? kMultisamples : 1}, cut);
-  FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, counts));
+  ShowPlan plan =
+      planShow(settings.show, pack.directory(), cut, frameCamera, settings.kind, settings.selection.texelPixels);
+  FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, plan, counts));
   frame.resolve();
   stats.impostors = counts.impostors;
   stats.texels = counts.texels;
   stats.bytesRead += counts.bytesRead;
+  stats.legend = std::move(plan.legend);
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/camera/camera.h"
 #include "runtime/draw/backdrop.h"
 #include "runtime/draw/impostor_kind.h"
+#include "runtime/draw/show.h"
 #include "runtime/frame_image.h"
 #include "runtime/gl/context.h"
 #include "runtime/selection/selection.h"
@@ -21,16 +22,18 @@ struct RenderSettings {
   int samplesPerPixel = 4;  // of triangles: 1, 4 (multisampling) or 16 (four jittered passes of 4)
   ImpostorKind kind = ImpostorKind::depthCorrected;
   SelectionSettings selection;
+  Show show = Show::picture;
 };
 
 struct FrameStats {
   double wallMs = 0;  // selection, draw and finish (`draw`) or hand-over to the GPU (`show`); without reading pages
                       // when all were resident
   double cpuMs = 0;   // of the whole process
-  uint64_t triangles = 0;  // drawn
-  uint64_t impostors = 0;  // cells drawn as impostors
-  uint64_t texels = 0;     // of the views drawn (cropped rectangles)
-  uint64_t bytesRead = 0;  // from the pack for this frame
+  uint64_t triangles = 0;           // drawn
+  uint64_t impostors = 0;           // cells drawn as impostors
+  uint64_t texels = 0;              // of the views drawn (cropped rectangles)
+  uint64_t bytesRead = 0;           // from the pack for this frame
+  std::vector<LegendEntry> legend;  // of RenderSettings::show; empty for the picture
 };
 
 // Draws one pack. All calls on the thread of the context.

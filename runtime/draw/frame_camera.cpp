@@ -59,7 +59,8 @@ FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, co
       glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
       glm::vec4(sunDirection(model.settings.up), 0.0f),
       glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize),
-                static_cast<float>(view.impostorRays), static_cast<float>(std::log2(view.impostorRays) / 2))};
+                static_cast<float>(view.impostorRays), static_cast<float>(std::log2(view.impostorRays) / 2)),
+      glm::vec4(0)};
   return frame;
 }
 

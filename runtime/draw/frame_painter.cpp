@@ -21,25 +21,26 @@ constexpr std::array<uint16_t, 42> kCorners = {0, 4, 6, 0, 6, 2,   // low x
 constexpr GLsizei kBoxIndices = 36;
 constexpr GLsizei kRectangleIndices = 6;
 
+constexpr std::array<const char*, 4> kLookDefines = {"", "SHOW_TINT", "SHOW_DEPTH", "SHOW_NORMALS"};
+
+glm::vec4 unitColour(const std::array<uint8_t, 4>& colour) {
+  return glm::vec4(colour[0], colour[1], colour[2], colour[3]) / 255.0f;
+}
+
 }  // namespace
 
 Result<FramePainter> FramePainter::create(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes) {
-  std::vector<std::string> defines;
-  if (pack.directory().model.hasNormals) defines.push_back("SMOOTH_NORMALS");
-  Programs programs;
-  FARCELL_ASSIGN(programs.triangles, loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", defines}));
-  FARCELL_ASSIGN(programs.flat, loadProgram({"shaders/gl/impostor_flat.vert", "shaders/gl/impostor_flat.frag", {}}));
-  FARCELL_ASSIGN(programs.depthCorrected, loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", {}}));
-  return FramePainter(pack, viewpoints, residentBytes, std::move(programs));
+  FramePainter painter(pack, viewpoints, residentBytes);
+  FARCELL_TRY(painter.prepare(Look::picture));
+  return painter;
 }
 
-FramePainter::FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes,
-                           Programs programs)
+FramePainter::FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes)
     : pack_(pack),
       viewpoints_(viewpoints),
-      programs_(std::move(programs)),
+      viewBytes_(residentBytes / 2),
       geometry_(residentBytes / 2),
-      views_(pack.directory().model.settings.imageSize, residentBytes / 2),
+      views_(pack.directory().model.settings.imageSize, viewBytes_),
       uniforms_(createBuffer()),
       instances_(createBuffer()),
       corners_(createBuffer()),
@@ -49,69 +50,124 @@ FramePainter::FramePainter(const PackFile& pack, const Viewpoints& viewpoints, u
   glVertexArrayElementBuffer(bare_.name(), corners_.name());
 }
 
-Result<> FramePainter::paint(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, PaintCounts& counts) {
-  glNamedBufferSubData(uniforms_.name(), 0, sizeof(camera.uniforms), &camera.uniforms);
+Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
+  const Model& model = pack_.directory().model;
+  std::vector<std::string> defines;
+  if (look != Look::picture) defines = {"SHOW", kLookDefines[static_cast<size_t>(look)]};
+  if (look == Look::normals && model.settings.bakeNormals) defines.push_back("BAKED_NORMALS");
+  std::vector<std::string> triangleDefines = defines;
+  if (model.hasNormals) triangleDefines.push_back("SMOOTH_NORMALS");
+  Programs programs;
+  FARCELL_ASSIGN(programs.triangles,
+                 loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
+  FARCELL_ASSIGN(programs.flat,
+                 loadProgram({"shaders/gl/impostor_flat.vert", "shaders/gl/impostor_flat.frag", defines}));
+  FARCELL_ASSIGN(programs.depthCorrected,
+                 loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", defines}));
+  return programs;
+}
+
+// What a look needs beyond the picture's: its programs; the first time normals are shown, views that have them.
+Result<> FramePainter::prepare(Look look) {
+  const BuildSettings& settings = pack_.directory().model.settings;
+  if (look == Look::normals && settings.bakeNormals && !views_.hasNormals())
+    views_ = ViewStore(settings.imageSize, viewBytes_, true);
+  std::optional<Programs>& programs = programs_[static_cast<size_t>(look)];
+  if (programs) return {};
+  FARCELL_ASSIGN(programs, loadPrograms(look));
+  return {};
+}
+
+Result<> FramePainter::paint(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, const ShowPlan& plan,
+                             PaintCounts& counts) {
+  FARCELL_TRY(prepare(plan.look));
+  Frame frame{cut, camera, kind, plan, *programs_[static_cast<size_t>(plan.look)], counts, {}};
+  shared::FrameUniforms uniforms = camera.uniforms;
+  uniforms.depthScale = plan.depthScale;
+  glNamedBufferSubData(uniforms_.name(), 0, sizeof(uniforms), &uniforms);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);  // reversed: larger is nearer
-  FARCELL_TRY(paintTriangles(cut, counts));
-  return paintImpostors(cut, camera, kind, counts);
+  FARCELL_TRY(paintTriangles(frame));
+  FARCELL_TRY(paintImpostors(frame));
+  return paintLines(frame);
 }
 
-Result<> FramePainter::paintTriangles(const Cut& cut, PaintCounts& counts) {
+Result<> FramePainter::paintTriangles(const Frame& frame) {
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
-  glUseProgram(programs_.triangles.name());
+  glUseProgram(frame.programs.triangles.name());
   const Directory& directory = pack_.directory();
   std::vector<uint32_t> portion;
+  std::vector<GeometryStore::Tint> tints;
   geometry_.beginPortion();
-  for (const CutEntry& entry : cut.entries) {
+  for (size_t i = 0; i < frame.cut.entries.size(); ++i) {
+    const CutEntry& entry = frame.cut.entries[i];
     const CellRecord& cell = directory.cells[entry.cell];
     if (entry.representation != Representation::triangles || cell.geometryPage == kNone) continue;
     if (!geometry_.keep(entry.cell)) {
       FARCELL_ASSIGN(const GeometryPage page, pack_.readGeometry(cell.geometryPage));
-      counts.bytesRead += directory.pages[cell.geometryPage].storedBytes;
+      frame.counts.bytesRead += directory.pages[cell.geometryPage].storedBytes;
       if (page.indices.empty()) continue;
       const GpuMesh mesh = makeGpuMesh(page, cellBox(directory.model.grid, cell.key).min);
       if (!geometry_.add(entry.cell, mesh)) {
-        geometry_.draw(portion);
+        geometry_.draw(portion, tints);
         portion.clear();
+        tints.clear();
         geometry_.beginPortion();
         FARCELL_CHECK(geometry_.add(entry.cell, mesh));
       }
     }
     portion.push_back(entry.cell);
+    if (!frame.plan.tints.empty()) tints.push_back(frame.plan.tints[i]);
   }
-  geometry_.draw(portion);
+  geometry_.draw(portion, tints);
   return {};
 }
 
-Result<> FramePainter::paintImpostors(const Cut& cut, const FrameCamera& camera, ImpostorKind kind,
-                                      PaintCounts& counts) {
+Result<> FramePainter::paintImpostors(Frame& frame) {
   const Directory& directory = pack_.directory();
   std::vector<shared::ImpostorInstance> portion;
   views_.beginPortion();
-  for (size_t i = cut.entries.size(); i-- > 0;) {
-    const CutEntry& entry = cut.entries[i];
+  for (size_t i = frame.cut.entries.size(); i-- > 0;) {
+    const CutEntry& entry = frame.cut.entries[i];
     if (entry.representation != Representation::impostor) continue;
-    FARCELL_ASSIGN(std::optional<ViewPair> pair, residentPair(entry, kind, counts));
+    FARCELL_ASSIGN(std::optional<ViewPair> pair, residentPair(entry, frame.kind, frame.counts));
     if (!pair) {
-      drawImpostors(portion, kind);
+      drawImpostors(portion, frame);
       portion.clear();
       views_.beginPortion();
-      FARCELL_ASSIGN(pair, residentPair(entry, kind, counts));
+      FARCELL_ASSIGN(pair, residentPair(entry, frame.kind, frame.counts));
       FARCELL_CHECK(pair.has_value());
     }
     const auto& [nearest, second] = *pair;
     if (nearest.view.layer < 0 && second.view.layer < 0) continue;
-    portion.push_back(makeImpostorInstance(directory.model, directory.cells[entry.cell], nearest, second, camera));
-    ++counts.impostors;
-    counts.texels += uint64_t{nearest.view.width} * nearest.view.height;
-    counts.texels += uint64_t{second.view.width} * second.view.height;
+    portion.push_back(
+        makeImpostorInstance(directory.model, directory.cells[entry.cell], nearest, second, frame.camera));
+    if (!frame.plan.tints.empty()) portion.back().tint = unitColour(frame.plan.tints[i]);
+    if (frame.plan.show == Show::billboards)
+      addBillboard(frame.lines, portion.back(), lineColour(entry.representation, frame.kind));
+    ++frame.counts.impostors;
+    frame.counts.texels += uint64_t{nearest.view.width} * nearest.view.height;
+    frame.counts.texels += uint64_t{second.view.width} * second.view.height;
   }
-  drawImpostors(portion, kind);
+  drawImpostors(portion, frame);
+  return {};
+}
+
+Result<> FramePainter::paintLines(Frame& frame) {
+  const Directory& directory = pack_.directory();
+  if (frame.plan.show == Show::cells)
+    for (const CutEntry& entry : frame.cut.entries)
+      addBox(frame.lines, cellBox(directory.model.grid, directory.cells[entry.cell].key), frame.camera.eyeSteps,
+             lineColour(entry.representation, frame.kind));
+  if (frame.lines.empty()) return {};
+  if (!linePainter_) {
+    FARCELL_ASSIGN(linePainter_, LinePainter::create());
+  }
+  linePainter_->paint(frame.lines);
   return {};
 }
 
@@ -133,7 +189,7 @@ Result<std::optional<FramePainter::ViewPair>> FramePainter::residentPair(const C
   return std::optional<ViewPair>{pair};
 }
 
-void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& instances, ImpostorKind kind) {
+void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame) {
   if (instances.empty()) return;
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(instances[0])),
                     instances.data(), GL_STREAM_DRAW);
@@ -144,15 +200,15 @@ void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& in
   glDepthMask(GL_FALSE);
   glBindVertexArray(bare_.name());
   const auto count = static_cast<GLsizei>(instances.size());
-  if (kind == ImpostorKind::flat) {
+  if (frame.kind == ImpostorKind::flat) {
     glDisable(GL_CULL_FACE);
-    glUseProgram(programs_.flat.name());
+    glUseProgram(frame.programs.flat.name());
     glDrawElementsInstanced(GL_TRIANGLES, kRectangleIndices, GL_UNSIGNED_SHORT,
                             reinterpret_cast<const void*>(kBoxIndices * sizeof(uint16_t)), count);
   } else {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    glUseProgram(programs_.depthCorrected.name());
+    glUseProgram(frame.programs.depthCorrected.name());
     glDrawElementsInstanced(GL_TRIANGLES, kBoxIndices, GL_UNSIGNED_SHORT, nullptr, count);
   }
 }

@@ -1,6 +1,7 @@
 // Draws a cut into the bound target: makes cells resident, in portions where they do not all fit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -11,6 +12,8 @@
 #include "runtime/draw/geometry_store.h"
 #include "runtime/draw/impostor_instance.h"
 #include "runtime/draw/impostor_kind.h"
+#include "runtime/draw/line_painter.h"
+#include "runtime/draw/show.h"
 #include "runtime/draw/view_store.h"
 #include "runtime/gl/program.h"
 
@@ -27,8 +30,10 @@ class FramePainter {
   // REQUIRES: a current context; `pack` and `viewpoints` outlive the painter.
   static Result<FramePainter> create(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes);
 
-  // Triangles first, opaque; then the impostors, back to front, over them.
-  Result<> paint(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, PaintCounts& counts);
+  // Triangles first, opaque; then the impostors, back to front, over them; then the lines of the plan, which is this
+  // cut's.
+  Result<> paint(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, const ShowPlan& plan,
+                 PaintCounts& counts);
 
  private:
   struct Programs {
@@ -36,21 +41,36 @@ class FramePainter {
     GlProgram flat;
     GlProgram depthCorrected;
   };
-  FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes, Programs programs);
-  Result<> paintTriangles(const Cut& cut, PaintCounts& counts);
+  // What one frame is painted with.
+  struct Frame {
+    const Cut& cut;
+    const FrameCamera& camera;
+    ImpostorKind kind;
+    const ShowPlan& plan;
+    const Programs& programs;
+    PaintCounts& counts;
+    std::vector<LineEnd> lines;
+  };
+  FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes);
+  Result<> prepare(Look look);
+  Result<Programs> loadPrograms(Look look) const;
+  Result<> paintTriangles(const Frame& frame);
   // What an impostor is drawn from; the flat kind has no use for the second view.
   struct ViewPair {
     DirectedView nearest;
     DirectedView second;
   };
   Result<std::optional<ViewPair>> residentPair(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
-  Result<> paintImpostors(const Cut& cut, const FrameCamera& camera, ImpostorKind kind, PaintCounts& counts);
-  void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, ImpostorKind kind);
+  Result<> paintImpostors(Frame& frame);
+  void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame);
+  Result<> paintLines(Frame& frame);
   Result<ViewImage> readView(uint32_t cell, uint32_t view, PaintCounts& counts) const;
 
   const PackFile& pack_;
   const Viewpoints& viewpoints_;
-  Programs programs_;
+  const uint64_t viewBytes_;
+  std::array<std::optional<Programs>, 4> programs_;  // by look, each made with the first frame that has it
+  std::optional<LinePainter> linePainter_;           // likewise
   GeometryStore geometry_;
   ViewStore views_;
   GlBuffer uniforms_;

@@ -20,8 +20,11 @@ struct DrawCommand {
   uint32_t instanceCount;
   uint32_t firstIndex;
   int32_t baseVertex;
-  uint32_t baseInstance;
+  uint32_t baseInstance;  // which of the tints
 };
+
+constexpr GLuint kTintAttribute = 3;
+constexpr GLuint kTintBinding = 1;
 
 GlVertexArray createLayout() {
   GlVertexArray layout = createVertexArray();
@@ -33,6 +36,9 @@ GlVertexArray createLayout() {
   glVertexArrayAttribIFormat(name, 0, 3, GL_INT, offsetof(GpuVertex, position));
   glVertexArrayAttribFormat(name, 1, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(GpuVertex, colour));
   glVertexArrayAttribFormat(name, 2, 2, GL_SHORT, GL_TRUE, offsetof(GpuVertex, normal));
+  glVertexArrayAttribFormat(name, kTintAttribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0);
+  glVertexArrayAttribBinding(name, kTintAttribute, kTintBinding);
+  glVertexArrayBindingDivisor(name, kTintBinding, 1);
   return layout;
 }
 
@@ -113,15 +119,25 @@ bool GeometryStore::evictOldest() {
   return true;
 }
 
-void GeometryStore::draw(const std::vector<uint32_t>& cells) {
+void GeometryStore::bindTints(const std::vector<Tint>& tints) {
+  if (tints.empty()) return glDisableVertexArrayAttrib(layout_.name(), kTintAttribute);
+  if (!tints_) tints_ = createBuffer();
+  glNamedBufferData(tints_.name(), static_cast<GLsizeiptr>(tints.size() * sizeof(Tint)), tints.data(), GL_STREAM_DRAW);
+  glVertexArrayVertexBuffer(layout_.name(), kTintBinding, tints_.name(), 0, sizeof(Tint));
+  glEnableVertexArrayAttrib(layout_.name(), kTintAttribute);
+}
+
+void GeometryStore::draw(const std::vector<uint32_t>& cells, const std::vector<Tint>& tints) {
   if (cells.empty()) return;
+  FARCELL_CHECK(tints.empty() || tints.size() == cells.size());
   if (!layout_) layout_ = createLayout();
   if (!commands_) commands_ = createBuffer();
+  bindTints(tints);
   std::map<const Chunk*, std::vector<DrawCommand>> perChunk;
-  for (const uint32_t cell : cells) {
-    const Resident& resident = residents_.at(cell);
+  for (uint32_t i = 0; i < cells.size(); ++i) {
+    const Resident& resident = residents_.at(cells[i]);
     perChunk[&*resident.chunk].push_back(
-        {resident.indexCount, 1, resident.firstIndex, static_cast<int32_t>(resident.firstVertex), 0});
+        {resident.indexCount, 1, resident.firstIndex, static_cast<int32_t>(resident.firstVertex), i});
   }
   std::vector<DrawCommand> commands;
   for (const auto& [chunk, list] : perChunk) commands.insert(commands.end(), list.begin(), list.end());

@@ -4,6 +4,7 @@
 // the caller draws what it has, begins a new portion and adds again.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <list>
 #include <unordered_map>
@@ -26,7 +27,9 @@ class GeometryStore {
   // Uploads and keeps. False, and nothing changed that matters, when the portion's cells leave no room.
   bool add(uint32_t cell, const GpuMesh& mesh);
   // Draws resident cells kept in this portion, with the bound program: one multi-draw for each buffer they lie in.
-  void draw(const std::vector<uint32_t>& cells);
+  // `tints`: of each cell, at location 3; empty: the program asks for none.
+  using Tint = std::array<uint8_t, 4>;
+  void draw(const std::vector<uint32_t>& cells, const std::vector<Tint>& tints);
 
   uint64_t usedBytes() const { return usedBytes_; }
 
@@ -50,6 +53,7 @@ class GeometryStore {
   bool place(uint32_t cell, const GpuMesh& mesh);
   void addChunk(const GpuMesh& mesh);
   bool evictOldest();
+  void bindTints(const std::vector<Tint>& tints);
 
   uint64_t budgetBytes_;
   uint64_t usedBytes_ = 0;
@@ -58,6 +62,7 @@ class GeometryStore {
   std::unordered_map<uint32_t, Resident> residents_;
   GlVertexArray layout_;
   GlBuffer commands_;
+  GlBuffer tints_;
 };
 
 }  // namespace farcell

@@ -70,6 +70,7 @@ shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellReco
   instance.boxMin = plane((glm::dvec3(cell.content.min) - centreSteps) / halfSteps, texel);
   instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, 0);
   instance.eye = plane(eye, std::log2(camera.pixelAngle / (texel * halfRootSides)) + kLodBias);
+  instance.tint = glm::vec4(0);
   instance.nearest = impostorView(nearest, eye, texel);
   instance.second = impostorView(second, eye, texel);
   return instance;

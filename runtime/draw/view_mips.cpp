@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "cache/base/check.h"
+
 namespace farcell {
 namespace {
 
@@ -43,6 +45,11 @@ std::vector<std::vector<uint8_t>> buildColourMips(const ViewImage& view, int ima
 
 std::vector<uint8_t> buildDepthImage(const ViewImage& view, int imageSize) {
   return placed(view.depth, view, imageSize, 1);
+}
+
+std::vector<uint8_t> buildNormalImage(const ViewImage& view, int imageSize) {
+  FARCELL_CHECK_EQ(view.normal.size(), 2 * static_cast<size_t>(view.width) * view.height);
+  return placed(view.normal, view, imageSize, 2);
 }
 
 }  // namespace farcell

@@ -17,5 +17,7 @@ std::vector<std::vector<uint8_t>> buildColourMips(const ViewImage& view, int ima
 
 // imageSize^2 depth values, 0 outside the crop.
 std::vector<uint8_t> buildDepthImage(const ViewImage& view, int imageSize);
+// imageSize^2 octahedral pairs, 0 outside the crop. REQUIRES: the view has normals.
+std::vector<uint8_t> buildNormalImage(const ViewImage& view, int imageSize);
 
 }  // namespace farcell

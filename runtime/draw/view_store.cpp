@@ -9,16 +9,16 @@ namespace {
 
 constexpr int kFirstLayers = 64;
 
-uint64_t layerBytes(int imageSize) {
+uint64_t layerBytes(int imageSize, bool withNormals) {
   uint64_t texels = 0;
   for (uint64_t edge = static_cast<uint64_t>(imageSize); edge > 0; edge /= 2) texels += edge * edge;
-  return texels * 4 + static_cast<uint64_t>(imageSize) * static_cast<uint64_t>(imageSize);
+  return texels * 4 + static_cast<uint64_t>(imageSize) * static_cast<uint64_t>(imageSize) * (withNormals ? 3 : 1);
 }
 
-int layerLimit(int imageSize, uint64_t budgetBytes) {
+int layerLimit(uint64_t bytesPerLayer, uint64_t budgetBytes) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
-  return static_cast<int>(std::clamp<uint64_t>(budgetBytes / layerBytes(imageSize), 2, static_cast<uint64_t>(limit)));
+  return static_cast<int>(std::clamp<uint64_t>(budgetBytes / bytesPerLayer, 2, static_cast<uint64_t>(limit)));
 }
 
 GlTexture createArray(GLenum format, int imageSize, int levels, int layers, GLenum minFilter, GLenum magFilter) {
@@ -40,10 +40,12 @@ void copyLayers(const GlTexture& from, const GlTexture& to, int imageSize, int l
 
 }  // namespace
 
-ViewStore::ViewStore(int imageSize, uint64_t budgetBytes)
-    : imageSize_(imageSize), maxLayers_(layerLimit(imageSize, budgetBytes)) {}
+ViewStore::ViewStore(int imageSize, uint64_t budgetBytes, bool withNormals)
+    : imageSize_(imageSize),
+      withNormals_(withNormals),
+      maxLayers_(layerLimit(layerBytes(imageSize, withNormals), budgetBytes)) {}
 
-uint64_t ViewStore::usedBytes() const { return static_cast<uint64_t>(layers_) * layerBytes(imageSize_); }
+uint64_t ViewStore::usedBytes() const { return static_cast<uint64_t>(layers_) * layerBytes(imageSize_, withNormals_); }
 
 const ResidentView* ViewStore::keep(uint32_t cell, uint32_t view) {
   const auto found = entries_.find({cell, view});
@@ -70,6 +72,7 @@ void ViewStore::beginPortion() {
   freeLayers_.clear();
   colours_.reset();
   depths_.reset();
+  normals_.reset();
   layers_ = 0;
   grow(maxLayers_);
 }
@@ -100,6 +103,12 @@ void ViewStore::grow(int layers) {
     copyLayers(colours_, colours, imageSize_, levels, layers_);
     copyLayers(depths_, depths, imageSize_, 1, layers_);
   }
+  if (withNormals_) {
+    GlTexture normals = createArray(GL_RG8, imageSize_, 1, layers, GL_NEAREST, GL_NEAREST);
+    normals.label("view normals");
+    if (layers_ > 0) copyLayers(normals_, normals, imageSize_, 1, layers_);
+    normals_ = std::move(normals);
+  }
   colours_ = std::move(colours);
   depths_ = std::move(depths);
   for (int layer = layers - 1; layer >= layers_; --layer) freeLayers_.push_back(layer);
@@ -126,11 +135,16 @@ void ViewStore::upload(int layer, const ViewImage& image) const {
   const auto depth = buildDepthImage(image, imageSize_);
   glTextureSubImage3D(depths_.name(), 0, 0, 0, layer, imageSize_, imageSize_, 1, GL_RED, GL_UNSIGNED_BYTE,
                       depth.data());
+  if (!withNormals_) return;
+  const auto normal = buildNormalImage(image, imageSize_);
+  glTextureSubImage3D(normals_.name(), 0, 0, 0, layer, imageSize_, imageSize_, 1, GL_RG, GL_UNSIGNED_BYTE,
+                      normal.data());
 }
 
 void ViewStore::bind() const {
   glBindTextureUnit(0, colours_.name());
   glBindTextureUnit(1, depths_.name());
+  if (withNormals_) glBindTextureUnit(2, normals_.name());
 }
 
 }  // namespace farcell

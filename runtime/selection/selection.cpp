@@ -129,11 +129,11 @@ class Selector {
     glm::dvec3 direction = view_.eye - glm::dvec3(content.min + content.max) * 0.5;
     if (direction == glm::dvec3(0)) direction = back_;
     const auto [nearest, second] = viewpoints_.nearestTwo(direction);
-    cut_.entries.push_back(
-        {index, Representation::impostor, static_cast<uint32_t>(nearest), static_cast<uint32_t>(second)});
+    cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(nearest),
+                            static_cast<uint32_t>(second), texelPixels(directory_.cells[index])});
   }
   void addTriangles(uint32_t index) {
-    cut_.entries.push_back({index, Representation::triangles, 0, 0});
+    cut_.entries.push_back({index});
     cut_.triangles += directory_.cells[index].triangles;
   }
 
@@ -146,7 +146,7 @@ class Selector {
       const uint64_t triangles = directory_.cells[entry.cell].triangles;
       if (cut_.triangles > settings_.triangleBudget || triangles > settings_.triangleBudget - cut_.triangles) return;
       cut_.triangles += triangles;
-      entry = {entry.cell, Representation::triangles, 0, 0};
+      entry = {entry.cell};
     }
   }
 

@@ -40,6 +40,8 @@ struct CutEntry {
   // the cube's centre (a city in its cells): seen from near, the direction to the cube would choose a wrong view.
   uint32_t view = 0;
   uint32_t secondView = 0;  // the next nearest: asked where the first saw no surface
+  // Impostors: edge of a texel on screen, pixels, at the nearest point of the content; infinite inside its box.
+  double texelPixels = 0;
 };
 
 // Entries lie front to back: of two, the later one can never hide the earlier (octree order seen from the eye).

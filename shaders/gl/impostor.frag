@@ -23,6 +23,11 @@ flat in vec3 nearestMax, secondMax;
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
 
+#ifdef SHOW
+#include "shaders/gl/impostor_show.frag"
+flat in int shownInstance;
+#endif
+
 const int kMarchSteps = 16;
 const float kMarchTexels = 1.5;          // lateral length of a step, where 16 are enough
 const int kBisections = 5;
@@ -60,8 +65,8 @@ float depthValue(vec2 texel, float layer) {
 }
 
 // Looks through one view. point: boxPoint in its texture space; from: its eye, w: edge of a texel in depth values;
-// low: its box, w: its layer. Sets `found` to the colour of what it returns.
-int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 found) {
+// low: its box, w: its layer. Sets `found` to the colour of what it returns, `place` to its texel and its s.
+int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 found, inout vec3 place) {
   vec3 along = point - from.xyz;
   vec2 inView = slab(point, along, low.xyz, high);
   float first = max(max(inBox.x, inView.x), -1.0);
@@ -119,6 +124,7 @@ int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 foun
       vec4 seen = textureLod(colours, vec3(hit * frame.image.y, low.w), lod);
       if (seen.a > kEmptyAlpha) {
         found = seen;
+        place = vec3(hit, s);
         result = onSurface ? kSurface : kJump;
         if (onSurface) break;
       }
@@ -131,14 +137,28 @@ int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 foun
   return result;
 }
 
+// What is shown of what was seen at a place of one of the two views.
+vec4 shown(vec4 seen, bool inNearest, vec3 place, vec3 along) {
+#ifdef SHOW
+  return shownInstead(seen, shownInstance, inNearest, place.xy, (1.0 + place.z) / gl_FragCoord.w, along);
+#else
+  return seen;
+#endif
+}
+
 // What the ray through a point of the box's back sees; the three points are the same one in three spaces.
 vec4 seenThrough(vec3 local, vec3 inNearest, vec3 inSecond) {
   vec2 inBox = slab(local, local - eye.xyz, boxMin, boxMax);
+  vec3 along = local - eye.xyz;
   vec4 seen = vec4(0.0);
-  if (look(inNearest, nearestEye, nearestMin, nearestMax, inBox, seen) == kSurface) return seen;
+  vec3 place = vec3(0.0);
+  if (look(inNearest, nearestEye, nearestMin, nearestMax, inBox, seen, place) == kSurface)
+    return shown(seen, true, place, along);
   vec4 other = vec4(0.0);
-  if (look(inSecond, secondEye, secondMin, secondMax, inBox, other) == kSurface) return other;
-  return seen;
+  vec3 otherPlace = vec3(0.0);
+  if (look(inSecond, secondEye, secondMin, secondMax, inBox, other, otherPlace) == kSurface)
+    return shown(other, false, otherPlace, along);
+  return shown(seen, true, place, along);
 }
 
 // Where the object's outline differs from the view's, no texel knows how much of the pixel it covers: rays do.

@@ -11,6 +11,9 @@ flat out vec4 eye;                   // local; w: level of detail at clip w = 1
 flat out vec3 boxMin, boxMax;        // padded, local
 flat out vec4 nearestEye, nearestMin, secondEye, secondMin;
 flat out vec3 nearestMax, secondMax;
+#ifdef SHOW
+flat out int shownInstance;
+#endif
 
 vec3 texturePoint(ImpostorView view, vec3 local) {
   return vec3(dot(view.textureX.xyz, local) + view.textureX.w, dot(view.textureY.xyz, local) + view.textureY.w,
@@ -25,6 +28,9 @@ void main() {
   bvec3 high = bvec3((gl_VertexID & 1) != 0, (gl_VertexID & 2) != 0, (gl_VertexID & 4) != 0);
   boxPoint = mix(boxMin, boxMax, high);
   eye = instance.eye;
+#ifdef SHOW
+  shownInstance = gl_InstanceID;
+#endif
   nearestPoint = texturePoint(instance.nearest, boxPoint);
   nearestEye = instance.nearest.eye;
   nearestMin = instance.nearest.boxMin;

@@ -3,6 +3,13 @@
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(binding = 0) uniform sampler2DArray colours;
 
+#ifdef SHOW
+layout(binding = 1) uniform sampler2DArray depths;
+#include "shaders/gl/impostor_show.frag"
+flat in int shownInstance;
+in vec3 along;
+#endif
+
 in vec2 texel;
 flat in vec2 layerAndLod;
 
@@ -12,5 +19,8 @@ layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked fo
 void main() {
   float lod = layerAndLod.y - log2(gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
   colour = textureLod(colours, vec3(texel * frame.image.y, layerAndLod.x), lod);
+#ifdef SHOW
+  colour = shownInstead(colour, shownInstance, true, texel, 1.0 / gl_FragCoord.w, along);
+#endif
   impostorCoverage = colour.aaaa;
 }

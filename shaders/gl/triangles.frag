@@ -1,5 +1,6 @@
 #include "shaders/shared/draw.h"
 #include "shaders/shared/shading.h"
+#include "shaders/shared/show.h"
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 
@@ -8,6 +9,13 @@ in vec3 albedo;
 in vec3 surfaceNormal;
 #else
 flat in float light;
+flat in vec3 faceNormal;
+#endif
+#ifdef SHOW_TINT
+flat in vec3 tint;
+#endif
+#ifdef SHOW_NORMALS
+in vec3 along;
 #endif
 
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
@@ -15,9 +23,18 @@ layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked fo
 
 void main() {
 #ifdef SMOOTH_NORMALS
-  colour = vec4(shade(albedo, normalize(surfaceNormal), frame.sun.xyz), 1.0);
+  vec3 unit = normalize(surfaceNormal);
+  colour = vec4(shade(albedo, unit, frame.sun.xyz), 1.0);
 #else
+  vec3 unit = faceNormal;
   colour = vec4(albedo * light, 1.0);
+#endif
+#if defined(SHOW_TINT)
+  colour = tinted(colour, tint);
+#elif defined(SHOW_DEPTH)
+  colour = vec4(vec3(depthGrey(1.0 / gl_FragCoord.w, frame.depthScale)), 1.0);
+#elif defined(SHOW_NORMALS)
+  colour = vec4(normalColour(unit, along), 1.0);
 #endif
   impostorCoverage = vec4(0.0, 0.0, 0.0, 1.0);
 }

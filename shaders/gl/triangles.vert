@@ -1,5 +1,7 @@
 // Full triangles. Vertices are integers on the model's grid: the difference to the eye is exact, and the same for the
 // cells on both sides of a shared corner, so that no cracks open.
+//
+// SHOW_TINT, SHOW_DEPTH, SHOW_NORMALS: what shaders/shared/show.h says, instead of the picture.
 #include "shaders/shared/draw.h"
 #include "shaders/shared/shading.h"
 
@@ -8,12 +10,20 @@ layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(location = 0) in ivec3 position;  // grid steps
 layout(location = 1) in vec4 colour;
 layout(location = 2) in vec2 normal;     // octahedral; flat faces: of the provoking vertex's triangle
+#ifdef SHOW_TINT
+layout(location = 3) in vec3 cellTint;   // one a draw
+flat out vec3 tint;
+#endif
+#ifdef SHOW_NORMALS
+out vec3 along;  // from the eye
+#endif
 
 out vec3 albedo;
 #ifdef SMOOTH_NORMALS
 out vec3 surfaceNormal;
 #else
 flat out float light;
+flat out vec3 faceNormal;
 #endif
 
 void main() {
@@ -26,5 +36,12 @@ void main() {
   surfaceNormal = unit;
 #else
   light = lightFactor(unit, frame.sun.xyz);
+  faceNormal = unit;
+#endif
+#ifdef SHOW_TINT
+  tint = cellTint;
+#endif
+#ifdef SHOW_NORMALS
+  along = relative;
 #endif
 }

@@ -17,6 +17,7 @@ struct FrameUniforms {
   vec4 eyeFraction;  // xyz: the rest of it, in steps; w: near distance, root sides
   vec4 sun;          // xyz: unit, world axes
   vec4 image;        // x: edge of a view in texels; y: 1 / x; z: rays per pixel; w: log2(z) / 2
+  vec4 depthScale;   // for depthGrey (show.h), of depths in root sides
 };
 
 // One view of an impostor. Local: from the cell's centre, world axes, in half sides of the cell. Texture space: x, y in
@@ -36,6 +37,7 @@ struct ImpostorInstance {
   vec4 boxMin;  // xyz: content box, local; w: edge of a texel, half sides
   vec4 boxMax;
   vec4 eye;     // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
+  vec4 tint;    // xyz: colour for what stands for cells instead of showing them (show.h)
   ImpostorView nearest;
   ImpostorView second;
 };

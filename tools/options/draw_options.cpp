@@ -13,6 +13,9 @@ const std::map<std::string, RenderMode> kModes = {{"auto", RenderMode::automatic
                                                   {"triangles", RenderMode::triangles},
                                                   {"full", RenderMode::full}};
 const std::map<std::string, ImpostorKind> kKinds = {{"flat", ImpostorKind::flat}, {"A", ImpostorKind::depthCorrected}};
+const std::map<std::string, Show> kShows = {
+    {"picture", Show::picture}, {"cells", Show::cells}, {"billboards", Show::billboards}, {"levels", Show::levels},
+    {"kinds", Show::kinds},     {"error", Show::error}, {"depth", Show::depth},           {"normals", Show::normals}};
 
 }  // namespace
 
@@ -29,6 +32,11 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
       ->capture_default_str();
   app.add_option("--kind", options.kind, "of impostors: A is depth-corrected")
       ->check(CLI::IsMember(kKinds))
+      ->capture_default_str();
+  app.add_option("--show", options.show,
+                 "the picture, or over it: edges of cells, outlines of billboards; or instead: octree levels, kinds of "
+                 "drawing, expected error (texels on screen, pixels), depth, normals")
+      ->check(CLI::IsMember(kShows))
       ->capture_default_str();
   app.add_option("--triangle-budget", options.triangleBudget, "most triangles of a frame in mode auto, e.g. 500k")
       ->type_name("COUNT")
@@ -52,6 +60,7 @@ Result<DrawPlan> planOf(const DrawOptions& options) {
   FARCELL_ASSIGN(const ImageSize size, parseImageSize(options.size));
   plan.settings.selection.mode = kModes.at(options.mode);
   plan.settings.kind = kKinds.at(options.kind);
+  plan.settings.show = kShows.at(options.show);
   FARCELL_ASSIGN(plan.settings.selection.triangleBudget, parseCount(options.triangleBudget));
   plan.settings.selection.texelPixels = options.texelPixels;
   FARCELL_ASSIGN(plan.residentBytes, parseCount(options.residentBytes));
@@ -88,6 +97,12 @@ const char* modeName(RenderMode mode) {
 const char* kindName(ImpostorKind kind) {
   for (const auto& [name, value] : kKinds)
     if (value == kind) return name.c_str();
+  return "";
+}
+
+const char* showName(Show show) {
+  for (const auto& [name, value] : kShows)
+    if (value == show) return name.c_str();
   return "";
 }
 

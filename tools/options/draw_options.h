@@ -21,6 +21,7 @@ struct DrawOptions {
   std::string size = "1280x720";
   std::string mode = "auto";
   std::string kind = "A";
+  std::string show = "picture";
   std::string triangleBudget = "500k";
   double texelPixels = kTexelPixels;
   int samples = 4;
@@ -45,5 +46,6 @@ Result<Camera> chooseCamera(const DrawOptions& options, const Model& model, int 
 // As the options spell them.
 const char* modeName(RenderMode mode);
 const char* kindName(ImpostorKind kind);
+const char* showName(Show show);
 
 }  // namespace farcell

@@ -40,10 +40,27 @@ double medianWarmMs(const std::vector<FrameStats>& frames) {
   return times[times.size() / 2];
 }
 
-Result<> writeFigures(const std::string& path, const std::string& renderer, const std::vector<FrameStats>& frames) {
+nlohmann::json legendJson(const std::vector<LegendEntry>& legend) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const LegendEntry& entry : legend) json.push_back({{"meaning", entry.meaning}, {"colour", entry.colour}});
+  return json;
+}
+
+void printLegend(const std::vector<LegendEntry>& legend) {
+  for (const LegendEntry& entry : legend)
+    std::fprintf(stderr, "  #%02x%02x%02x  %s\n", entry.colour[0], entry.colour[1], entry.colour[2],
+                 entry.meaning.c_str());
+}
+
+Result<> writeFigures(const std::string& path, const std::string& renderer, Show show,
+                      const std::vector<FrameStats>& frames) {
   nlohmann::json list = nlohmann::json::array();
   for (const FrameStats& stats : frames) list.push_back(frameJson(stats));
-  const nlohmann::json figures = {{"openGl", renderer}, {"frames", list}, {"medianWarmMs", medianWarmMs(frames)}};
+  nlohmann::json figures = {{"openGl", renderer}, {"frames", list}, {"medianWarmMs", medianWarmMs(frames)}};
+  if (show != Show::picture) {
+    figures["show"] = showName(show);
+    figures["legend"] = legendJson(frames.back().legend);
+  }
   const std::string text = figures.dump(2) + "\n";
   if (path != "-") return writeTextFile(path, text);
   std::fputs(text.c_str(), stdout);
@@ -72,12 +89,13 @@ Result<> run(const RenderOptions& options) {
     FARCELL_TRY(writePng(options.output, {image.width, image.height, 3, overBackground(image.rgba, behind)}));
   }
   if (!options.statsFile.empty()) {
-    FARCELL_TRY(writeFigures(options.statsFile, context.renderer(), frames));
+    FARCELL_TRY(writeFigures(options.statsFile, context.renderer(), plan.settings.show, frames));
   }
   const FrameStats& last = frames.back();
   std::fprintf(stderr, "%.1f ms, %llu triangles, %llu impostors, %llu texels (%s)\n", medianWarmMs(frames),
                static_cast<unsigned long long>(last.triangles), static_cast<unsigned long long>(last.impostors),
                static_cast<unsigned long long>(last.texels), context.renderer().c_str());
+  printLegend(last.legend);
   return {};
 }
 
@@ -87,13 +105,16 @@ Result<> run(const RenderOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Draws one picture of a pack.\n"
-      "Near cells are drawn as triangles, within a budget, the rest as impostors. OpenGL 4.5 is needed, of a GPU or of "
-      "Mesa's software renderer; no window is.",
+      "Near cells are drawn as triangles, within a budget, the rest as impostors. What --show's colours mean is "
+      "printed "
+      "on stderr, and with --json as \"legend\". OpenGL 4.5 is needed, of a GPU or of Mesa's software renderer; no "
+      "window is.",
       "farcell-render");
   app.footer(
       "Examples:\n"
       "  farcell render city.far --size 1280x720 -o city.png\n"
-      "  farcell render city.far --camera cams.json --camera-name street --repeat 5 --json -\n");
+      "  farcell render city.far --camera cams.json --camera-name street --repeat 5 --json -\n"
+      "  farcell render city.far --show error -o error.png\n");
   farcell::RenderOptions options;
   farcell::addRenderOptions(app, options);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options); });

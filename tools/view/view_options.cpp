@@ -18,6 +18,7 @@ std::string renderCommand(const DrawOptions& options, const RenderSettings& sett
       "--texel-pixels {}",
       pack, cameraFile, settings.width, settings.height, modeName(settings.selection.mode), kindName(settings.kind),
       settings.samplesPerPixel, settings.selection.triangleBudget, settings.selection.texelPixels);
+  if (settings.show != Show::picture) command += fmt::format(" --show {}", showName(settings.show));
   if (!options.background.empty()) command += " --background " + options.background;
   return command;
 }
