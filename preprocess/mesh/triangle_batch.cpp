@@ -6,11 +6,10 @@
 
 namespace farcell {
 namespace {
+const Vertices kNoVertices;
 constexpr size_t kBatchTriangles = 2048;  // 240 KiB: still in the cache when the sink reads them
 
 bool isFinite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-const Vertices kNoVertices;
 }  // namespace
 
 TriangleBatch::TriangleBatch(const Vertices& vertices, const MeshReader::Sink& sink)
@@ -32,8 +31,8 @@ bool TriangleBatch::gather(const Indices& positions, std::array<glm::dvec3, 3>& 
   return isUsable(out, vertices_.allFinite);
 }
 
-bool TriangleBatch::isUsable(const std::array<glm::dvec3, 3>& positions, bool allFinite) {
-  if (!allFinite && !(isFinite(positions[0]) && isFinite(positions[1]) && isFinite(positions[2]))) {
+bool TriangleBatch::isUsable(const std::array<glm::dvec3, 3>& positions, bool areFinite) {
+  if (!areFinite && !(isFinite(positions[0]) && isFinite(positions[1]) && isFinite(positions[2]))) {
     ++nonFinite_;
     return false;
   }
@@ -52,16 +51,16 @@ void TriangleBatch::add(const Indices& positions, const Indices& normals, uint32
     triangle.colours[i] = colour == kNoColour ? faceColour : colour;
     triangle.normals[i] = normals[i] < vertices_.normals.size() ? vertices_.normals[normals[i]] : glm::vec3(0);
   }
-  accept();
+  take();
 }
 
 void TriangleBatch::add(const InputTriangle& triangle) {
   if (failed() || !isUsable(triangle.positions, false)) return;
   triangles_[used_] = triangle;
-  accept();
+  take();
 }
 
-void TriangleBatch::accept() {
+void TriangleBatch::take() {
   ++accepted_;
   if (++used_ == kBatchTriangles) flush();
 }

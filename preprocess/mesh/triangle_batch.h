@@ -18,23 +18,23 @@ class TriangleBatch {
 
   // Both must outlive the batch.
   TriangleBatch(const Vertices& vertices, const MeshReader::Sink& sink);
-  // For triangles that bring their own corners.
+  // For triangles that are complete: no index names a vertex.
   explicit TriangleBatch(const MeshReader::Sink& sink);
 
   // Normals are those of the same indices. After failed() triangles are ignored.
   void add(const Indices& positions) { add(positions, positions, defaultColour_); }
   // Normal indices out of range give a zero normal; faceColour is for corners whose vertex has none.
   void add(const Indices& positions, const Indices& normals, uint32_t faceColour);
-  // Corners and looks as they are; checks the positions only.
-  void add(const InputTriangle& triangle);
+  void add(const InputTriangle& triangle);  // complete
+  void skipBadIndex() { ++badIndex_; }      // a triangle whose vertices its reader did not find
   bool failed() const { return failure_.has_value(); }
   // Hands on what is left. The counts, or the error of the sink.
   Result<MeshCounts> finish();
 
  private:
   bool gather(const Indices& positions, std::array<glm::dvec3, 3>& out);
-  bool isUsable(const std::array<glm::dvec3, 3>& positions, bool allFinite);
-  void accept();
+  bool isUsable(const std::array<glm::dvec3, 3>& positions, bool areFinite);
+  void take();
   void flush();
 
   const Vertices& vertices_;
