@@ -6,7 +6,7 @@
 //
 // A file is opened in one reading (byte_stream.h): vertices are kept in memory (vertices.h), faces are counted and
 // checked, so that a file that contradicts itself fails at once. Each pass then streams the faces again and hands
-// them on through triangle_batch.h.
+// them on through triangle_batch.h. (STL has no vertices apart from its faces: nothing is kept.)
 #pragma once
 
 #include <array>
@@ -37,13 +37,13 @@ struct InputTriangle {
 
 // What the file's header or first pass tells.
 struct MeshInfo {
-  std::string format;        // for people: "PLY, ASCII"
-  UpAxis up = UpAxis::z;     // as the format has it, or the file says
-  double metresPerUnit = 1;  // likewise
-  bool hasColours = false;   // also when a triangle may name a texture
+  bool hasColours = false;  // also when a triangle may name a texture
   bool hasNormals = false;
   uint64_t declaredTriangles = 0;  // after triangulation, where the format declares it or a first pass counted it
   uint64_t vertices = 0;
+  std::string format;        // for people: "PLY, ASCII"
+  UpAxis up = UpAxis::z;     // as the format has it, or the file says
+  double metresPerUnit = 1;  // likewise
 };
 
 // What a pass over the triangles found: accepted + sum of skipped == every triangle the file holds.

@@ -66,6 +66,8 @@ expect 'dependency: zlib' preprocess/read/a.cpp '#include <libdeflate.h>\n'
 expect 'dependency: GLFW' runtime/gl/a.cpp '#include <GLFW/glfw3.h>\n'
 expect 'dependency: libpng' tools/render/a.cpp '#include <png.h>\n'
 expect 'dependency: EGL' tools/render/a.cpp '#include <epoxy/egl.h>\n'
+expect 'dependency: nlohmann' preprocess/read/a.cpp '#include <nlohmann/json.hpp>\n'
+expect 'layer: preprocess/read/scene/ may not include preprocess/read/' preprocess/read/scene/a.cpp '#include "preprocess/read/open_mesh.h"\n'
 expect 'dependency: CLI11' cache/base/a.cpp '#include <CLI/CLI.hpp>\n'
 expect 'size: 501 lines' cache/base/a.cpp "$(printf '//\\n%.0s' $(seq 501))"
 expect 'size: a function of 61 lines' cache/base/a.cpp "$(longFunction 59)"

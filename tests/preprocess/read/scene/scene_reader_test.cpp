@@ -49,7 +49,7 @@ std::vector<ScenePart> parts(ScenePart a, ScenePart b) {
 
 TEST(SceneReader, ShiftsTexturesAndMirrorsTheirCoordinatesWithTheCorners) {
   const Pose mirror{.scale = {1, 1, -1}};
-  const MeshInfo coloured{.format = "", .hasColours = true, .declaredTriangles = 3, .vertices = 3};
+  const MeshInfo coloured{.hasColours = true, .declaredTriangles = 3, .vertices = 3, .format = ""};
   auto mesh =
       composeMeshes(parts(part(coloured, {"a", "b"}, {Pose{}}), part(coloured, {"c", "d"}, {Pose{}, mirror})), {});
   ASSERT_TRUE(mesh);
@@ -72,16 +72,16 @@ TEST(SceneReader, ShiftsTexturesAndMirrorsTheirCoordinatesWithTheCorners) {
 
 TEST(SceneReader, CountsATrillionTrianglesAndRefusesMoreThanItCanCount) {
   const std::vector<Pose> thousand(1024);
-  MeshInfo large{.format = "", .declaredTriangles = uint64_t{1} << 30, .vertices = uint64_t{1} << 29};
+  MeshInfo large{.declaredTriangles = uint64_t{1} << 30, .vertices = uint64_t{1} << 29, .format = ""};
   const auto legal = composeMeshes(parts(part(large, {}, thousand), part(large, {}, {Pose{}})), {});
   ASSERT_TRUE(legal);
   EXPECT_EQ((*legal)->info().declaredTriangles, (uint64_t{1} << 40) + (uint64_t{1} << 30));
   EXPECT_EQ((*legal)->info().vertices, (uint64_t{1} << 39) + (uint64_t{1} << 29));
 
-  const MeshInfo one{.format = "", .declaredTriangles = 1, .vertices = 1};
+  const MeshInfo one{.declaredTriangles = 1, .vertices = 1, .format = ""};
   large.declaredTriangles = uint64_t{1} << 54;  // 2^64 by the thousand
-  const MeshInfo all{.format = "", .declaredTriangles = ~uint64_t{0}, .vertices = 1};
-  const MeshInfo vertices{.format = "", .declaredTriangles = 1, .vertices = ~uint64_t{0}};
+  const MeshInfo all{.declaredTriangles = ~uint64_t{0}, .vertices = 1, .format = ""};
+  const MeshInfo vertices{.declaredTriangles = 1, .vertices = ~uint64_t{0}, .format = ""};
   EXPECT_TRUE(composeMeshes(parts(part(all, {}, {Pose{}}), part({}, {}, {Pose{}})), {}));
   for (auto& tooMany : {std::pair{large, thousand}, {all, std::vector<Pose>(1)}, {vertices, std::vector<Pose>(2)}}) {
     const auto refused = composeMeshes(parts(part(one, {}, {Pose{}}), part(tooMany.first, {}, tooMany.second)), {});
@@ -95,7 +95,7 @@ TEST(SceneReader, CountsATrillionTrianglesAndRefusesMoreThanItCanCount) {
 
 TEST(SceneReader, EndsWithTheErrorOfTheSinkWhereverItComes) {
   const std::vector<Pose> poses(5000);
-  const MeshInfo info{.format = "", .declaredTriangles = 1, .vertices = 3};
+  const MeshInfo info{.declaredTriangles = 1, .vertices = 3, .format = ""};
   auto mesh = composeMeshes(parts(part(info, {}, poses), part(info, {}, {Pose{}})), {});
   ASSERT_TRUE(mesh);
   for (const int last : {1, 2, 3}) {
