@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 
 #include "cache/schema/view_frame.h"
+#include "shaders/shared/shading.h"
 
 namespace farcell {
 namespace {
@@ -13,9 +14,22 @@ namespace {
 struct Sample {
   double w = -INFINITY;
   glm::dvec3 colour{0};
+  glm::dvec3 normal{0};
 };
 
 bool inGrownCube(glm::dvec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kCellGrowth; }
+
+glm::dvec3 towards(glm::dvec3 direction, glm::dvec3 normal) {
+  return glm::dot(direction, normal) < 0 ? -normal : normal;
+}
+
+// Octahedral, [0, 255] for [-1, 1].
+std::array<uint8_t, 2> normalBytes(glm::dvec3 sum) {
+  if (glm::length(sum) < 1e-9) return {128, 128};
+  const glm::vec2 p = shared::octahedralFromUnit(glm::vec3(glm::normalize(sum)));
+  return {static_cast<uint8_t>(std::lround((p.x * 0.5f + 0.5f) * 255)),
+          static_cast<uint8_t>(std::lround((p.y * 0.5f + 0.5f) * 255))};
+}
 
 class Image {
  public:
@@ -31,6 +45,9 @@ class Image {
               glm::dot(triangle.corners[i], frame_.toward)};
     const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
     if (std::abs(area) < 1e-12) return;
+    const glm::dvec3 normal =
+        towards(frame_.toward, glm::normalize(glm::cross(triangle.corners[1] - triangle.corners[0],
+                                                         triangle.corners[2] - triangle.corners[0])));
     const auto low = [&](int axis) {
       return std::max(0, static_cast<int>(std::floor(std::min({p[0][axis], p[1][axis], p[2][axis]}))) - 1);
     };
@@ -47,7 +64,7 @@ class Image {
         if (!inGrownCube(a * triangle.corners[0] + b * triangle.corners[1] + c * triangle.corners[2])) continue;
         Sample& sample = samples_[static_cast<size_t>(y) * static_cast<size_t>(across_) + static_cast<size_t>(x)];
         const double w = a * p[0].z + b * p[1].z + c * p[2].z;
-        if (w > sample.w) sample = {w, triangle.colour};
+        if (w > sample.w) sample = {w, triangle.colour, normal};
       }
   }
 
@@ -65,6 +82,7 @@ class Image {
 
 struct Texel {
   glm::dvec4 rgba{0};
+  glm::dvec3 normal{0};  // a sum
   double w = -INFINITY;
 };
 
@@ -82,6 +100,7 @@ std::vector<Texel> averaged(const Image& image, int imageSize, int samplesPerEdg
           if (!std::isfinite(sample.w)) continue;
           if (pass == 0) {
             front = std::max(front, sample.w);
+            out.normal += sample.normal;
             out.rgba += glm::dvec4(sample.colour, 1.0) / static_cast<double>(samplesPerEdge * samplesPerEdge);
           } else if (sample.w >= front - 3 * texel) {
             sum += sample.w;
@@ -112,8 +131,9 @@ std::vector<double> dilated(const std::vector<Texel>& texels, int size) {
 
 }  // namespace
 
-ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 direction, uint32_t view, int imageSize,
-                        int samplesPerEdge) {
+ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 direction,
+                        const SyntheticView& wanted) {
+  const auto [view, imageSize, samplesPerEdge, withNormals] = wanted;
   Image image(viewFrame(direction), imageSize * samplesPerEdge);
   for (const LocalTriangle& triangle : triangles) image.draw(triangle);
   const std::vector<Texel> texels = averaged(image, imageSize, samplesPerEdge, texelSize(imageSize));
@@ -139,6 +159,8 @@ ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 
         result.rgba.push_back(static_cast<uint8_t>(std::lround(texels[i].rgba[channel] * 255)));
       const double value = high > low ? std::round((depth[i] - low) / (high - low) * 254) : 0;
       result.depth.push_back(std::isfinite(depth[i]) ? static_cast<uint8_t>(1 + value) : uint8_t{0});
+      const std::array<uint8_t, 2> normal = normalBytes(texels[i].normal);
+      if (withNormals) result.normal.insert(result.normal.end(), normal.begin(), normal.end());
     }
   return result;
 }

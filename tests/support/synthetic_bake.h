@@ -15,8 +15,14 @@ struct LocalTriangle {
   glm::dvec3 colour;  // lit, [0, 1]
 };
 
+struct SyntheticView {
+  uint32_t view = 0;
+  int imageSize = 64;
+  int samplesPerEdge = 3;  // of a texel
+  bool withNormals = false;
+};
+
 // The view from `direction` of what lies within [-kCellGrowth, kCellGrowth]^3.
-ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 direction, uint32_t view, int imageSize,
-                        int samplesPerEdge);
+ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 direction, const SyntheticView& wanted);
 
 }  // namespace farcell

@@ -25,6 +25,7 @@ struct SyntheticPack {
   int samplesPerEdge = 3;  // of a texel
   bool withViews = true;
   bool withInnerViews = true;
+  bool withNormals = false;  // of views
   UpAxis up = UpAxis::z;
 };
 

@@ -111,8 +111,12 @@ TEST_F(SharedShaders, structuresLieAlikeInCppAndInTheDriver) {
   EXPECT_EQ(offsetOf(*program, GL_UNIFORM, "frame.clipW"), static_cast<GLint>(offsetof(FrameUniforms, clipW)));
   EXPECT_EQ(offsetOf(*program, GL_UNIFORM, "frame.eyeSteps"), static_cast<GLint>(offsetof(FrameUniforms, eyeSteps)));
   EXPECT_EQ(offsetOf(*program, GL_UNIFORM, "frame.image"), static_cast<GLint>(offsetof(FrameUniforms, image)));
+  EXPECT_EQ(offsetOf(*program, GL_UNIFORM, "frame.depthScale"),
+            static_cast<GLint>(offsetof(FrameUniforms, depthScale)));
   EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].boxMax"),
             static_cast<GLint>(offsetof(ImpostorInstance, boxMax)));
+  EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].tint"),
+            static_cast<GLint>(offsetof(ImpostorInstance, tint)));
   EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].second.boxMax"),
             static_cast<GLint>(offsetof(ImpostorInstance, second) + offsetof(shared::ImpostorView, boxMax)));
   const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "instances[0].centre");

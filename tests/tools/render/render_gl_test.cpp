@@ -80,6 +80,24 @@ TEST_F(RenderProgram, namedCamerasAreFoundOrRefused) {
   EXPECT_NE(text("err").find("no camera is named 'none'"), std::string::npos);
 }
 
+TEST_F(RenderProgram, whatColoursShowIsToldInAList) {
+  for (const std::string show : {"cells", "billboards", "levels", "kinds", "error", "depth", "normals"}) {
+    ASSERT_EQ(run("a.far --size 64x48 --json - -o s.png --show " + show), 0) << text("err");
+    const auto figures = nlohmann::json::parse(text("out"), nullptr, false);
+    EXPECT_EQ(figures["show"], show);
+    ASSERT_GT(figures["legend"].size(), 0u) << show;
+    for (const auto& entry : figures["legend"]) {
+      EXPECT_EQ(entry["colour"].size(), 3u);
+      EXPECT_NE(text("err").find(entry["meaning"].get<std::string>()), std::string::npos);
+    }
+  }
+  ASSERT_EQ(run("a.far --size 64x48 --json -"), 0) << text("err");
+  EXPECT_FALSE(nlohmann::json::parse(text("out"), nullptr, false).contains("legend"));
+  EXPECT_EQ(run("a.far -o s.png --show beauty"), 2);
+  for (const std::string show : {"cells", "billboards", "levels", "kinds", "error", "depth", "normals", "picture"})
+    EXPECT_NE(text("err").find(show), std::string::npos) << text("err");
+}
+
 TEST_F(RenderProgram, misuseExitsWith2AndFailureWith1) {
   for (const std::string arguments :
        {"", "a.far", "a.far -o a.png --mode fast", "a.far -o a.png --kind C", "a.far -o a.png --size 0x5",
