@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs a package of farcell with apt in a minimal Debian system made for it, and uses it there: help, manual pages,
-# completion, and from a city to a picture and a report. Nothing of this machine is in that system; it is gone afterwards.
+# Installs a package of farcell with apt in a minimal Debian system made for it, and uses it there: help, manual pages
+# and from a city to a picture and a report. Nothing of this machine is in that system; it is gone afterwards.
 # usage (as root): tests/package/clean_root.sh <farcell_*.deb> [picture.png]   The picture drawn there is copied out.
 # Needs the packages mmdebstrap and what this machine's own package sources hold. Takes about two minutes.
 set -euo pipefail
@@ -26,7 +26,7 @@ set -eux
 test ! -e /usr/bin/c++
 [ "$(farcell --version)" = "farcell $version" ]
 farcell --help
-for page in farcell farcell-generate farcell-build farcell-info farcell-verify farcell-render farcell-evaluate; do
+for page in farcell farcell-{generate,build,info,verify,render,view,extract,evaluate}; do
   man -w "$page"
 done
 MANPAGER=cat man farcell-build | grep -- '--leaf-triangles'

@@ -28,8 +28,8 @@ class CompletionTest : public testing::TestWithParam<std::string> {
   // The words offered for the last one of the line, which may be empty: "farcell build ".
   Words offered(const std::string& line) const {
     const bool bash = shell() == "bash";
-    const std::string scripts =
-        std::string(FARCELL_REFERENCE_DIR) + (bash ? "/bash-completion/completions" : "/" + shell());
+    std::string scripts = FARCELL_REFERENCE_DIR "/";
+    scripts += bash ? "bash-completion/completions" : shell();
     // bash gets the line in words: a quoted empty one where it ends with a space.
     const std::string words = bash ? line + (line.back() == ' ' ? "''" : "") : "'" + line + "'";
     const std::string start = shell() == "fish" ? "fish --no-config" : shell();
@@ -60,10 +60,11 @@ TEST_P(CompletionTest, OffersEveryOptionOfHelpAndNoOther) {
 }
 
 TEST_P(CompletionTest, OffersTheCommands) {
-  for (const HelpPage& page : allHelpPages())
-    if (!page.commands.empty())
-      for (const std::string& line : typed(page))
-        EXPECT_EQ(offered(line + " "), Words(page.commands.begin(), page.commands.end())) << line;
+  for (const HelpPage& page : allHelpPages()) {
+    if (page.commands.empty()) continue;
+    for (const std::string& line : typed(page))
+      EXPECT_EQ(offered(line + " "), Words(page.commands.begin(), page.commands.end())) << line;
+  }
 }
 
 TEST_P(CompletionTest, OffersTheWordsThatAnOptionTakes) {
@@ -88,7 +89,9 @@ TEST_P(CompletionTest, OffersFilesAndDirectories) {
 
 TEST_P(CompletionTest, OffersNothingForANumberOrAfterAnUnknownVerb) {
   EXPECT_EQ(offered("farcell generate city --seed "), Words());
-  if (shell() == "bash") EXPECT_EQ(offered("farcell bake "), Words());
+  if (shell() == "bash") {
+    EXPECT_EQ(offered("farcell bake "), Words());
+  }
 }
 
 TEST_P(CompletionTest, OffersTheWordsAfterAnEqualsSign) {
@@ -99,7 +102,7 @@ TEST_P(CompletionTest, OffersTheWordsAfterAnEqualsSign) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shells, CompletionTest, testing::Values("bash", "zsh", "fish"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& shell) { return shell.param; });
 
 TEST(WrongWords, AreExitTwoAndTheMessageListsTheRightOnes) {
   int found = 0;

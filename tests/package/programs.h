@@ -79,7 +79,7 @@ inline HelpPage helpPage(const std::string& program, const std::string& words) {
       page.options.push_back({{found[2]}, found[3], found[4]});
       if (found[1].matched) page.options.back().names.push_back(found[1]);
     } else if (!page.options.empty()) {
-      page.options.back().text += " " + line.substr(std::min(line.find_first_not_of(' '), line.size()));
+      page.options.back().text.append(1, ' ').append(line, std::min(line.find_first_not_of(' '), line.size()));
     }
   }
   return page;

@@ -65,9 +65,10 @@ TEST(Reference, ManualPagesGiveTheVersionAndTheExitCodes) {
 
 TEST(Reference, ManualPagesOfTheProgramsAreThoseThatFarcellNames) {
   const std::string text = pageText("farcell");
-  for (const HelpPage& page : allHelpPages())
-    if (page.program != "farcell")
-      EXPECT_NE(text.find(".BR " + page.program + " (1)"), std::string::npos) << page.program;
+  for (const HelpPage& page : allHelpPages()) {
+    if (page.program == "farcell") continue;
+    EXPECT_NE(text.find(".BR " + page.program + " (1)"), std::string::npos) << page.program;
+  }
 }
 
 TEST(Reference, ManHasNoWarnings) {
