@@ -12,7 +12,8 @@ namespace {
 void checkReadable(std::span<const std::byte> bytes, uint64_t offset, const std::string& path) {
   DirectoryPlaces places;
   const Result<Directory> decoded = decodeDirectory(bytes, offset, path, places);
-  if (!decoded) checkFailed(__FILE_NAME__, __LINE__, "the directory can be read back", " (" + decoded.error().message + ")");
+  if (!decoded)
+    checkFailed(__FILE_NAME__, __LINE__, "the directory can be read back", " (" + decoded.error().message + ")");
   const Result<> checked = checkDirectory(*decoded, places, offset, path);
   if (!checked) checkFailed(__FILE_NAME__, __LINE__, "the directory is valid", " (" + checked.error().message + ")");
 }

@@ -10,7 +10,8 @@
 namespace farcell {
 
 // Chosen by content where that is certain, whatever the name (PLY, GLB, OFF, binary STL), else by name: .ply,
-// .obj, .stl, .off, .gltf, .glb, and .json for a scene (scene/scene_file.h). unsupported for other formats, named in the message.
+// .obj, .stl, .off, .gltf, .glb, and .json for a scene (scene/scene_file.h). unsupported for other formats, named in
+// the message.
 Result<std::unique_ptr<MeshReader>> openMesh(const std::filesystem::path& path);
 
 // Several files, each as openMesh opens it, as one model (scene/scene_reader.h). invalidArgument when there is none.

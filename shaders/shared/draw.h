@@ -26,8 +26,8 @@ struct ImpostorView {
   vec4 textureX;  // texture x = dot(xyz, local) + w
   vec4 textureY;
   vec4 textureZ;
-  vec4 eye;       // xyz: the eye, texture space; w: edge of a texel in depth values
-  vec4 boxMin;    // xyz: box of the view's content, texture space (an empty view: min > max); w: layer in the arrays
+  vec4 eye;     // xyz: the eye, texture space; w: edge of a texel in depth values
+  vec4 boxMin;  // xyz: box of the view's content, texture space (an empty view: min > max); w: layer in the arrays
   vec4 boxMax;
 };
 
@@ -36,8 +36,8 @@ struct ImpostorInstance {
   vec4 centre;  // xyz: cell centre - eye, grid steps; w: half side, grid steps
   vec4 boxMin;  // xyz: content box, local; w: edge of a texel, half sides
   vec4 boxMax;
-  vec4 eye;     // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
-  vec4 tint;    // xyz: colour for what stands for cells instead of showing them (show.h)
+  vec4 eye;   // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
+  vec4 tint;  // xyz: colour for what stands for cells instead of showing them (show.h)
   ImpostorView nearest;
   ImpostorView second;
 };

@@ -59,9 +59,10 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--threads", arguments.options.threads, "worker threads; 0: all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_option("--work-dir", arguments.options.scratchDirectory,
-                 "directory for scratch files, about 200 bytes a triangle, 300 in a textured model, and 6 a pixel of its "
-                 "textures; default: where the pack goes")
+  app.add_option(
+         "--work-dir", arguments.options.scratchDirectory,
+         "directory for scratch files, about 200 bytes a triangle, 300 in a textured model, and 6 a pixel of its "
+         "textures; default: where the pack goes")
       ->type_name("DIR");
   app.add_flag("--json", arguments.json, "print the report as JSON on stdout");
   app.add_flag("--quiet", arguments.quiet, "no progress on stderr");
@@ -149,7 +150,8 @@ Result<> run(Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Builds a pack from mesh files.\n"
-      "The meshes are streamed and cut into the cells of an octree; each cell keeps its triangles and small pictures of "
+      "The meshes are streamed and cut into the cells of an octree; each cell keeps its triangles and small pictures "
+      "of "
       "itself from many directions. Memory stays small whatever the size of the model; scratch files hold it "
       "meanwhile. The pack appears under its name when it is complete, and has the same bytes with any number of "
       "threads.",

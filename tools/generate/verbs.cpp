@@ -34,7 +34,9 @@ Result<BaseMesh> readBase(const std::string& path) {
 }  // namespace
 
 void addSharedOptions(CLI::App& verb, GenerateOptions& options) {
-  verb.add_option("--threads", options.threads, "worker threads; 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
+  verb.add_option("--threads", options.threads, "worker threads; 0: all")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
   verb.add_option("-o,--output", options.output, "mesh file to write (.ply)")->required();
   verb.add_flag("--json", options.json, "print counts as JSON on stdout");
 }

@@ -111,11 +111,12 @@ TEST(ManualPage, EscapesWhatRoffWouldTakeForItself) {
   EXPECT_EQ(page.find("secret"), std::string::npos);
   // No line begins as a request but those that are meant.
   std::istringstream lines(page);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty() && (line[0] == '.' || line[0] == '\''))
-      EXPECT_NE(std::string(".TH .SH .SS .TP .PP .nf .fi .B .I .BI .RI .BR").find(line.substr(0, line.find(' '))),
-                std::string::npos)
-          << line;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || (line[0] != '.' && line[0] != '\'')) continue;
+    EXPECT_NE(std::string(".TH .SH .SS .TP .PP .nf .fi .B .I .BI .RI .BR").find(line.substr(0, line.find(' '))),
+              std::string::npos)
+        << line;
+  }
 }
 
 TEST(Completion, ScriptsNameTheirProgramAndQuoteWhatShellsWouldTakeForThemselves) {
