@@ -10,18 +10,6 @@
 namespace farcell::test {
 namespace {
 
-// Triangles with a position and a colour for each corner.
-struct Soup {
-  std::vector<float> positions;
-  std::vector<std::array<uint8_t, 4>> colours;
-};
-
-Soup soup(size_t triangles) {
-  Soup made{cornerNumbers(triangles), {}};
-  for (size_t i = 0; i < 3 * triangles; ++i) made.colours.push_back({uint8_t(i % 3 * 127), 255, 0, 255});
-  return made;
-}
-
 // What Draco has to be given beside its bytes.
 struct Coded {
   std::string bytes;
@@ -48,6 +36,18 @@ GltfWriter dracoFile(const Coded& coded) {
 }
 
 #ifdef FARCELL_HAS_DRACO
+
+// Triangles with a position and a colour for each corner.
+struct Soup {
+  std::vector<float> positions;
+  std::vector<std::array<uint8_t, 4>> colours;
+};
+
+Soup soup(size_t triangles) {
+  Soup made{cornerNumbers(triangles), {}};
+  for (size_t i = 0; i < 3 * triangles; ++i) made.colours.push_back({uint8_t(i % 3 * 127), 255, 0, 255});
+  return made;
+}
 
 Coded encode(const Soup& input, int method) {
   draco::TriangleSoupMeshBuilder builder;
