@@ -20,7 +20,7 @@ diff -r "$top/first" "$top/second/opt/farcell" || fail "prefix and DESTDIR diffe
 expected=$(for program in "$@"; do
   printf '%s\n' "bin/$program" "share/man/man1/$program.1.gz" "share/bash-completion/completions/$program" \
     "share/zsh/site-functions/_$program" "share/fish/vendor_completions.d/$program.fish"
-done; printf 'share/doc/farcell/%s\n' LICENSE README.md CHANGELOG.md)
+done; printf 'share/doc/farcell/%s\n' LICENSE README.md CHANGELOG.md; echo lib/farcell/modules/farcell-image-decoder.so)
 diff <(sort <<<"$expected") <(cd "$top/first" && find . -type f | cut -c3- | sort) || fail "other files than expected"
 
 # Nothing of where it was built, nor where it was installed first.

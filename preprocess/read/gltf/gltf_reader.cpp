@@ -66,6 +66,8 @@ Result<> readPrimitives(const tinygltf::Model& model, GltfLooks& looks, GltfScen
 
 Result<> summarise(GltfScene& scene) {
   MeshInfo& info = scene.info;
+  info.format = startsLikeGlb(scene.buffers->file()) ? "glTF, binary" : "glTF";
+  info.up = UpAxis::y;
   info.hasNormals = !scene.primitives.empty();
   for (const GltfPrimitive& primitive : scene.primitives) {
     info.hasColours |= primitive.hasMaterial || primitive.colour.exists();

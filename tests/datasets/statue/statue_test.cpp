@@ -291,10 +291,11 @@ TEST_F(StatueTest, ReliefStaysWithinItsAmplitude) {
   EXPECT_GE(lowest, 1 - amplitude - 1e-3);
   EXPECT_LE(highest, 1 + amplitude + 1e-3);
   EXPECT_GT(highest - lowest, 0.3 * amplitude);
-  // Without relief the points lie on the sphere, from which the flat triangles are up to 6e-4 away.
+  // Without relief the points lie nearly on the sphere: the flat triangles are up to 6e-4 away from it, of which the
+  // rounding by half (statue.h) takes two thirds.
   settings.amplitude = 0;
   write(base, settings);
-  for (const glm::dvec3& vertex : read().vertices) EXPECT_NEAR(glm::length(vertex), 1, 1e-4);
+  for (const glm::dvec3& vertex : read().vertices) EXPECT_NEAR(glm::length(vertex), 1, 2e-4);
 }
 
 TEST_F(StatueTest, IsTheSameShapeAtAnyScaleAndOffset) {

@@ -22,7 +22,7 @@ struct Format {
 constexpr Format kFormats[] = {
     {"little.ply", &ModelFile::plyLittle}, {"big.ply", &ModelFile::plyBig},   {"text.ply", &ModelFile::plyText},
     {"model.obj", &ModelFile::obj},        {"text.stl", &ModelFile::stlText}, {"binary.stl", &ModelFile::stlBinary},
-    {"model.off", &ModelFile::off},
+    {"model.off", &ModelFile::off},        {"model.gltf", &ModelFile::gltf},  {"model.glb", &ModelFile::glb},
 };
 
 // A closed torus with bumps, on a lattice of 1 / 256: exact in floats and in few digits.

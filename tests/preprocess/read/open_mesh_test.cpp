@@ -31,14 +31,13 @@ TEST(OpenMesh, RefusesWhatIsNoRegularFile) {
   }
 }
 
-TEST(OpenMesh, NamesTheFormatsItCannotRead) {
+TEST(OpenMesh, NamesTheFormatsThatItReadsWhereItCannot) {
   const TempDirectory directory;
-  for (const auto& [name, format] : {std::pair{"a.gltf", "glTF"}, {"a.glb", "binary glTF"}, {"a.xyz", ".xyz"}}) {
-    const auto result = openMesh(directory.write(name, "solid nothing"));
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().kind, ErrorKind::unsupported);
-    EXPECT_NE(result.error().message.find(format), std::string::npos) << result.error().message;
-  }
+  const auto result = openMesh(directory.write("a.xyz", "solid nothing"));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::unsupported);
+  for (const char* name : {".xyz", ".ply", ".obj", ".stl", ".off", ".gltf", ".glb"})
+    EXPECT_NE(result.error().message.find(name), std::string::npos) << result.error().message;
 }
 
 TEST(OpenMesh, RefusesEmptyFilesOfEveryFormat) {

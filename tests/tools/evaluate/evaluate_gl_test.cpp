@@ -98,7 +98,7 @@ TEST_F(EvaluateProgram, TheOriginalFileCanBeTheTruthAndOnlyThatFile) {
   EXPECT_GT(json.at("entries")[1].at("psnr"), 35);
   std::ofstream(path("sphere.ply"), std::ios::app) << "\n";
   EXPECT_EQ(run(common + "--mesh sphere.ply"), 2);
-  EXPECT_NE(textOf(path("stderr")).find("not the same file"), std::string::npos) << textOf(path("stderr"));
+  EXPECT_NE(textOf(path("stderr")).find("not the same source"), std::string::npos) << textOf(path("stderr"));
 }
 
 TEST_F(EvaluateProgram, MakesItsOwnCamerasAndWritesThem) {

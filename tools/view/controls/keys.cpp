@@ -34,10 +34,10 @@ constexpr std::array<Binding, 16> kBindings = {{
 }};
 
 constexpr const char* kMouse =
-    "orbit:  left drag turns around the pivot; wheel goes to what is under the pointer; middle, right or Shift drag\n"
-    "        pans; WASD and QE move\n"
-    "fly:    left or right drag looks around; W A S D forward, left, back, right; Q E down, up; Shift faster; wheel\n"
-    "        changes the speed\n"
+    "orbit:  left drag turns around the pivot; wheel goes to what is under the pointer;\n"
+    "        middle, right or Shift drag pans; WASD and QE move\n"
+    "fly:    left or right drag looks around; W A S D forward, left, back, right; Q E down, up;\n"
+    "        Shift faster; wheel changes the speed\n"
     "A pack dropped on the window is opened.\n";
 
 }  // namespace
