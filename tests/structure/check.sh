@@ -81,7 +81,7 @@ heavy() {
 }
 dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
-  heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tests/support)/'
+  heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tools/extract|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy 'WebP, LZMA' '[<"](webp/|lzma\.h)' '^tests/bench/'

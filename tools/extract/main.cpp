@@ -14,6 +14,7 @@ struct ExtractOptions {
   std::string cell = "all";
   std::string views = "all";
   std::string channel = "colour";
+  std::string format = "png";
   std::string output;
   bool full = false;
   bool atlas = false;
@@ -32,6 +33,9 @@ void addOptions(CLI::App& app, ExtractOptions& options) {
                  "colour: with coverage as alpha; depth: 0 unknown, 255 nearest; normal: of packs that have them")
       ->check(CLI::IsMember({"colour", "coverage", "depth", "normal"}))
       ->capture_default_str();
+  app.add_option("--format", options.format, "of the pictures")
+      ->check(CLI::IsMember({"png", "tif"}))
+      ->capture_default_str();
   app.add_flag("--full", options.full, "the whole square of each view, not only the part that holds anything");
   app.add_flag("--atlas", options.atlas, "all views of a cell in one picture, with a JSON file that names its tiles");
   app.add_flag("--json", options.json, "print what was written as JSON on stdout");
@@ -45,6 +49,7 @@ Result<> run(const ExtractOptions& options) {
   const Directory& directory = pack.directory();
   FARCELL_ASSIGN(settings.cells, parseCells(options.cell, directory));
   FARCELL_ASSIGN(settings.views, parseViews(options.views, static_cast<uint32_t>(directory.model.settings.views)));
+  settings.format = options.format;
   settings.full = options.full;
   settings.atlas = options.atlas;
   settings.directory = options.output;
@@ -64,7 +69,7 @@ Result<> run(const ExtractOptions& options) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Writes the views of a pack as PNG pictures.\n"
+      "Writes the views of a pack as pictures.\n"
       "One picture a view, or one a cell with --atlas.",
       "farcell-extract");
   app.footer(

@@ -7,6 +7,7 @@
 #include "cache/base/file.h"
 #include "cache/base/interrupt.h"
 #include "cache/schema/viewpoints.h"
+#include "tools/extract/views/image_file.h"
 
 namespace farcell {
 namespace {
@@ -110,8 +111,8 @@ class Extractor {
 
   Result<> writeViews(uint32_t cell, const std::vector<ViewImage>& views, Json& files) const {
     for (const ViewImage& view : views) {
-      const auto path =
-          settings_.directory / fmt::format("cell-{}-view-{}-{}.png", cell, view.view, nameOf(settings_.channel));
+      const auto path = settings_.directory / fmt::format("cell-{}-view-{}-{}.{}", cell, view.view,
+                                                          nameOf(settings_.channel), settings_.format);
       Picture picture = viewPicture(view, settings_.channel);
       int x = 0, y = 0;
       if (settings_.full) {
@@ -121,7 +122,7 @@ class Extractor {
         place(picture, x, y, square);
         picture = std::move(square);
       }
-      FARCELL_TRY(writePng(path, picture));
+      FARCELL_TRY(writeImageFile(path, picture));
       Json file = cellJson(cell, path.string());
       file.update(viewJson(view, x, y));
       files.push_back(std::move(file));
@@ -134,7 +135,8 @@ class Extractor {
     if (views.empty()) return {};
     Picture atlas = blankPicture(columns() * imageSize_, rows() * imageSize_, channelCount(settings_.channel));
     const std::string name = fmt::format("cell-{}-{}", cell, nameOf(settings_.channel));
-    Json file = cellJson(cell, (settings_.directory / (name + ".png")).string());
+    const std::filesystem::path path = settings_.directory / (name + "." + settings_.format);
+    Json file = cellJson(cell, path.string());
     Json tiles = Json::array();
     for (const ViewImage& view : views) {
       const auto at = std::lower_bound(settings_.views.begin(), settings_.views.end(), view.view);
@@ -145,7 +147,7 @@ class Extractor {
       tiles.push_back(viewJson(view, x, y));
     }
     file["views"] = std::move(tiles);
-    FARCELL_TRY(writePng(settings_.directory / (name + ".png"), atlas));
+    FARCELL_TRY(writeImageFile(path, atlas));
     FARCELL_TRY(writeTextFile(settings_.directory / (name + ".json"), file.dump(2) + "\n"));
     files.push_back(std::move(file));
     return {};

@@ -1,4 +1,4 @@
-// Views of a pack as PNG files.
+// Views of a pack as picture files.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,7 @@ struct ExtractSettings {
   ViewChannel channel = ViewChannel::colour;
   bool full = false;                // the whole square of a view, not only the rectangle that holds anything
   bool atlas = false;               // one picture a cell: all views in a grid of whole squares, with a JSON file beside
+  std::string format = "png";       // or "tif"
   std::filesystem::path directory;  // made where it is missing
 };
 

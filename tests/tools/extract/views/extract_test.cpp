@@ -1,10 +1,12 @@
 #include "tools/extract/views/extract.h"
 
 #include <gtest/gtest.h>
+
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <set>
 
 #include "cache/base/file.h"
@@ -31,7 +33,11 @@ class ExtractTest : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(directory_); }
 
   ExtractSettings settings(std::vector<uint32_t> cells, std::vector<uint32_t> views) const {
-    return {std::move(cells), std::move(views), ViewChannel::colour, false, false, directory_ / "out"};
+    ExtractSettings wanted;
+    wanted.cells = std::move(cells);
+    wanted.views = std::move(views);
+    wanted.directory = directory_ / "out";
+    return wanted;
   }
   Json extract(const ExtractSettings& settings) const {
     auto result = extractViews(*pack_, settings);
@@ -85,6 +91,17 @@ TEST_F(ExtractTest, EveryTexelOfAViewIsWrittenUpright) {
       }
     EXPECT_GT(partly, 0);
   }
+}
+
+TEST_F(ExtractTest, TheFormatIsTheOneAskedFor) {
+  ExtractSettings wanted = settings({0}, {3});
+  wanted.format = "tif";
+  const std::string file = extract(wanted)["written"][0]["file"].get<std::string>();
+  EXPECT_TRUE(file.ends_with(".tif")) << file;
+  std::ifstream stream(file, std::ios::binary);
+  std::string magic(4, '\0');
+  stream.read(magic.data(), 4);
+  EXPECT_TRUE(magic == std::string("II*\0", 4) || magic == std::string("MM\0*", 4));
 }
 
 TEST_F(ExtractTest, AFullSquareAndAnAtlasHoldTheSameTexelsWhereTheirRectanglesSay) {
