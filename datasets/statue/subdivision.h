@@ -6,7 +6,7 @@
 //    corners. Three strips join it to the three sides, whatever their counts.
 // 3. Vertices are numbered: corners of the base, then the inner points of its edges (edge by edge, from the lower
 // corner
-//    to the higher), then the grids (triangle by triangle, row by row from corner 2 to the side 0-1).
+//    up), then the grids (triangle by triangle, row by row from corner 2 to the side 0-1).
 #pragma once
 
 #include <array>

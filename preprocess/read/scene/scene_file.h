@@ -1,8 +1,8 @@
 // A scene file: JSON that names meshes and where they stand.
 //
 //   {"up": "z",                              optional: x, y or z; else that of the first file
-//    "unit": "m",                            optional: mm, cm, m, km, in, ft, or metres as a number; else the first
-//    file's "files": [                              at least one
+//    "unit": "m",                            optional: mm, cm, m, km, in, ft, or a number of metres; else likewise
+//    "files": [                              at least one
 //      {"path": "tower.obj",                 from the scene file's directory; a mesh, not another scene
 //       "translation": [x, y, z],            optional, as are the next three; model units
 //       "rotation": [x, y, z, w],            a quaternion of any length, or {"axis": [x, y, z], "angleDeg": number}
