@@ -41,7 +41,8 @@ step "installing what is missing"
 tools/install-deps.sh
 
 step "building farcell (release)"
-programs=(farcell farcell-generate farcell-build farcell-info farcell-verify farcell-render farcell-evaluate)
+programs=(farcell farcell-generate farcell-build farcell-info farcell-verify farcell-render farcell-view
+  farcell-evaluate)
 cmake --preset release >/dev/null
 cmake --build --preset release --target "${programs[@]}" >&2
 farcell=$PWD/build/release/bin/farcell
@@ -92,7 +93,8 @@ step "error of each way of drawing, against 64 samples of the full geometry"
 step "done"
 cat <<END
 pictures: $out/{overview,quarter,roofs,street,overview-full}.png
-report:   $out/report/report.json, report.csv and difference images
+report:   $out/report/index.html, which opens in a browser; report.json, report.csv
 city:     $out/city.ply, its pack $out/city.far
+walk:     $farcell view $out/city.far
 more:     $farcell --help
 END
