@@ -179,6 +179,49 @@ Result<> ScratchFile::readAt(uint64_t offset, std::span<std::byte> out) const {
   return readAll(descriptor_, directory_, offset, out);
 }
 
+GrowingFile::GrowingFile(int descriptor, std::string path, uint64_t sizeBytes)
+    : descriptor_(descriptor), path_(std::move(path)), sizeBytes_(sizeBytes) {}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), sizeBytes_(other.sizeBytes_) {}
+
+GrowingFile::~GrowingFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<GrowingFile> GrowingFile::open(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (descriptor < 0) return ioError(path, "cannot open for writing", errno);
+  GrowingFile file(descriptor, path.string(), 0);
+  struct stat info {};
+  if (::fstat(descriptor, &info) != 0) return ioError(path, "cannot stat", errno);
+  if (!S_ISREG(info.st_mode))
+    return fail(ErrorKind::io, "{}: expected a regular file, found something else", file.path_);
+  file.sizeBytes_ = static_cast<uint64_t>(info.st_size);
+  return file;
+}
+
+Result<> GrowingFile::readAt(uint64_t offset, std::span<std::byte> out) const {
+  return readAll(descriptor_, path_, offset, out);
+}
+
+Result<> GrowingFile::append(std::span<const std::byte> bytes) {
+  FARCELL_TRY(writeAll(descriptor_, path_, sizeBytes_, bytes));
+  sizeBytes_ += bytes.size();
+  return {};
+}
+
+Result<> GrowingFile::truncate(uint64_t sizeBytes) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(sizeBytes)) != 0) return ioError(path_, "cannot truncate", errno);
+  sizeBytes_ = sizeBytes;
+  return {};
+}
+
+Result<> GrowingFile::sync() {
+  if (::fdatasync(descriptor_) != 0) return ioError(path_, "cannot sync", errno);
+  return {};
+}
+
 Result<std::string> readTextFile(const std::filesystem::path& path, uint64_t maxBytes) {
   FARCELL_ASSIGN(InputFile file, InputFile::open(path));
   if (file.sizeBytes() > maxBytes)

@@ -80,6 +80,31 @@ class ScratchFile {
   std::string directory_;
 };
 
+// A file that grows at its end and is read back at once, under its own name from the beginning: what outlives a crash.
+class GrowingFile {
+ public:
+  // Opens or creates it; refuses what is no regular file.
+  static Result<GrowingFile> open(const std::filesystem::path& path);
+  GrowingFile(GrowingFile&& other) noexcept;
+  GrowingFile& operator=(GrowingFile&&) = delete;
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+  ~GrowingFile();
+
+  const std::string& path() const { return path_; }
+  uint64_t sizeBytes() const { return sizeBytes_; }  // as opened, and what was added
+  Result<> readAt(uint64_t offset, std::span<std::byte> out) const;
+  Result<> append(std::span<const std::byte> bytes);
+  Result<> truncate(uint64_t sizeBytes);
+  Result<> sync();
+
+ private:
+  GrowingFile(int descriptor, std::string path, uint64_t sizeBytes);
+  int descriptor_ = -1;
+  std::string path_;
+  uint64_t sizeBytes_ = 0;
+};
+
 // A whole small text file (JSON and the like); fails with `exhausted` above `maxBytes`.
 Result<std::string> readTextFile(const std::filesystem::path& path, uint64_t maxBytes);
 // Writes through OutputFile.

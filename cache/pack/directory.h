@@ -1,6 +1,7 @@
 // What a pack holds, as its readers and writers see it. The bytes are described in FORMAT.md.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -18,7 +19,7 @@ enum class PageKind : uint32_t { geometry = 1, views = 2 };
 struct PageRecord {
   PageKind kind = PageKind::geometry;
   uint32_t cell = 0;          // index into Directory::cells
-  uint32_t group = 0;         // views: the viewpoint group (Viewpoints::group) this page holds; geometry: 0
+  uint32_t group = 0;         // views: the viewpoint group (Viewpoints::group) this page holds; geometry: its part
   uint64_t offsetBytes = 0;   // from the start of the file, a multiple of kPageAlignment
   uint32_t storedBytes = 0;   // as stored; the padding after it is zero
   uint32_t decodedBytes = 0;  // what it occupies in memory once decoded: budgets are charged with this
@@ -32,10 +33,21 @@ struct CellRecord {
   uint32_t childCount = 0;         // 0: a leaf
   GridBox content;                 // tight around the surface inside the cube
   uint64_t triangles = 0;          // full-resolution triangles inside the cube (clipped pieces)
-  uint32_t geometryPage = kNone;   // leaves: the page of the full triangles
+  // The cell's mesh: the full triangles of a leaf, the simplified mesh of an inner cell, which may have none.
+  uint64_t meshTriangles = 0;
+  double geometricError = 0;  // of the mesh: no point of it or of the full surface is farther from the other; model units
+  uint32_t firstGeometryPage = kNone;  // pages of the mesh, by part
+  uint32_t geometryPageCount = 0;
   uint32_t firstViewPage = kNone;  // pages of views, by rising group; kNone when no views were kept
   uint32_t viewPageCount = 0;
 };
+
+// A mesh of more triangles than fit in one page is cut into parts: each but the last has exactly as many as these.
+inline constexpr uint64_t kPartTriangles = uint64_t{1} << 17;
+inline uint64_t partCount(uint64_t triangles) { return (triangles + kPartTriangles - 1) / kPartTriangles; }
+inline uint64_t partTriangles(uint64_t triangles, uint64_t part) {
+  return std::min(kPartTriangles, triangles - part * kPartTriangles);
+}
 
 // How the input was taken and what the build made of it; contract of `build --json` and `info --json`.
 struct BuildReport {
@@ -45,6 +57,7 @@ struct BuildReport {
   uint64_t viewsBaked = 0;
   uint64_t viewsKept = 0;
   std::map<std::string, uint64_t> viewsLeftOut;  // by reason
+  std::map<std::string, uint64_t> bytesLeftOut;  // by the same reasons: what those of them that were coded would take
   uint64_t impostorBytes = 0;                    // stored
   uint64_t impostorRawBytes = 0;                 // cropped, before coding
   uint64_t geometryBytes = 0;                    // stored

@@ -11,7 +11,8 @@
 namespace farcell {
 namespace {
 
-constexpr uint64_t kMaxWordsRatio = 12;  // a triangle of 12 bytes may be one byte before deflate
+constexpr uint64_t kMaxWordsRatio = 12;                    // a triangle of 12 bytes may be one byte before deflate
+constexpr uint64_t kMaxMeshTriangles = uint64_t{1} << 40;  // all parts have a number
 constexpr int kMinImageSize = 16;
 constexpr int kMaxImageSize = 1024;
 
@@ -145,13 +146,9 @@ class Checker {
   }
 
   Result<> cellPages(uint32_t i) const {
+    FARCELL_TRY(mesh(i));
     const CellRecord& cell = directory_.cells[i];
     const uint64_t pageCount = directory_.pages.size();
-    if (cell.geometryPage != kNone && (cell.childCount > 0 || !isOf(cell.geometryPage, PageKind::geometry, i)))
-      return wrongCell(i, "a page of its own geometry, of a leaf only",
-                       fmt::format("page {} of a cell with {} children", cell.geometryPage, cell.childCount));
-    if (cell.geometryPage == kNone && cell.childCount == 0 && cell.triangles > 0)
-      return wrongCell(i, fmt::format("a page for {} triangles", cell.triangles), "none");
     const bool hasViews = cell.viewPageCount > 0;
     if (hasViews != (cell.firstViewPage != kNone) ||
         (hasViews && uint64_t{cell.firstViewPage} + cell.viewPageCount > pageCount))
@@ -162,7 +159,30 @@ class Checker {
     return {};
   }
 
-  bool isOf(uint32_t page, PageKind kind, uint32_t cell) const {
+  Result<> mesh(uint32_t i) const {
+    const CellRecord& cell = directory_.cells[i];
+    const bool leaf = cell.childCount == 0;
+    if (leaf ? cell.meshTriangles != cell.triangles : cell.meshTriangles > kMaxMeshTriangles)
+      return wrongCell(i,
+                       fmt::format("{} {} triangles in its mesh", leaf ? "all" : "at most",
+                                   leaf ? cell.triangles : kMaxMeshTriangles),
+                       fmt::format("{}", cell.meshTriangles));
+    if (!(cell.geometricError >= 0) || !std::isfinite(cell.geometricError) || (leaf && cell.geometricError != 0))
+      return wrongCell(i, leaf ? "no geometric error" : "a finite geometric error from 0",
+                       fmt::format("{}", cell.geometricError));
+    const uint64_t parts = partCount(cell.meshTriangles);
+    if (cell.geometryPageCount != parts || (parts == 0) != (cell.firstGeometryPage == kNone))
+      return wrongCell(i, fmt::format("{} pages for {} triangles", parts, cell.meshTriangles),
+                       fmt::format("{} from {}", cell.geometryPageCount, cell.firstGeometryPage));
+    for (uint64_t part = 0; part < parts; ++part) {
+      const uint64_t page = cell.firstGeometryPage + part;
+      if (!isOf(page, PageKind::geometry, i) || directory_.pages[page].group != part)
+        return wrongCell(i, "pages of its own geometry, by part", fmt::format("page {}", page));
+    }
+    return {};
+  }
+
+  bool isOf(uint64_t page, PageKind kind, uint32_t cell) const {
     return page < directory_.pages.size() && directory_.pages[page].kind == kind && directory_.pages[page].cell == cell;
   }
 
@@ -193,9 +213,11 @@ class Checker {
       return wrongPage(i, fmt::format("a cell below {}", directory_.cells.size()), fmt::format("{}", page.cell));
     const CellRecord& cell = directory_.cells[page.cell];
     if (page.kind == PageKind::geometry) {
-      if (cell.geometryPage == i && page.group == 0) return {};
-      return wrongPage(i, fmt::format("page {} of geometry of cell {}, group 0", cell.geometryPage, page.cell),
-                       fmt::format("page {}, group {}", i, page.group));
+      if (i >= cell.firstGeometryPage && i - cell.firstGeometryPage < cell.geometryPageCount) return {};
+      return wrongPage(i,
+                       fmt::format("{} pages of geometry of cell {} from {}", cell.geometryPageCount, page.cell,
+                                   cell.firstGeometryPage),
+                       fmt::format("page {}", i));
     }
     if (page.kind != PageKind::views)
       return wrongPage(i, "kind 1 or 2", fmt::format("{}", static_cast<uint32_t>(page.kind)));

@@ -101,6 +101,7 @@ void write(ByteWriter& out, const BuildReport& report) {
     out.u64(value);
   write(out, report.skipped);
   write(out, report.viewsLeftOut);
+  write(out, report.bytesLeftOut);
 }
 
 BuildReport readReport(ByteReader& in, bool& valid) {
@@ -110,24 +111,31 @@ BuildReport readReport(ByteReader& in, bool& valid) {
     *value = in.u64();
   report.skipped = readCounts(in, valid);
   report.viewsLeftOut = readCounts(in, valid);
+  report.bytesLeftOut = readCounts(in, valid);
   return report;
 }
 
 void write(ByteWriter& out, const CellRecord& cell) {
   for (const uint32_t value : {cell.key.level, cell.key.x, cell.key.y, cell.key.z, cell.parent, cell.firstChild,
-                               cell.childCount, cell.geometryPage, cell.firstViewPage, cell.viewPageCount})
+                               cell.childCount, cell.firstGeometryPage, cell.geometryPageCount, cell.firstViewPage,
+                               cell.viewPageCount})
     out.u32(value);
   write(out, cell.content);
   out.u64(cell.triangles);
+  out.u64(cell.meshTriangles);
+  out.f64(cell.geometricError);
 }
 
 CellRecord readCell(ByteReader& in) {
   CellRecord cell;
   for (uint32_t* value : {&cell.key.level, &cell.key.x, &cell.key.y, &cell.key.z, &cell.parent, &cell.firstChild,
-                          &cell.childCount, &cell.geometryPage, &cell.firstViewPage, &cell.viewPageCount})
+                          &cell.childCount, &cell.firstGeometryPage, &cell.geometryPageCount, &cell.firstViewPage,
+                          &cell.viewPageCount})
     *value = in.u32();
   cell.content = readBox(in);
   cell.triangles = in.u64();
+  cell.meshTriangles = in.u64();
+  cell.geometricError = in.f64();
   return cell;
 }
 

@@ -49,12 +49,13 @@ tl::unexpected<Error> inPage(const PackFile& pack, uint32_t page, const std::str
               page, message);
 }
 
-Result<> checkGeometry(const GeometryPage& page, const CellRecord& cell, const Model& model) {
+Result<> checkGeometry(const GeometryPage& page, uint32_t part, const CellRecord& cell, const Model& model) {
   const auto wrong = [](const std::string& expected, const std::string& found) {
     return fail(ErrorKind::corrupt, "expected {}, found {}", expected, found);
   };
-  if (page.indices.size() / 3 != cell.triangles)
-    return wrong(fmt::format("{} triangles", cell.triangles), fmt::format("{}", page.indices.size() / 3));
+  const uint64_t triangles = partTriangles(cell.meshTriangles, part);
+  if (page.indices.size() / 3 != triangles)
+    return wrong(fmt::format("{} triangles", triangles), fmt::format("{}", page.indices.size() / 3));
   if (!page.positions.empty() && (page.colours.empty() == model.hasColours || page.normals.empty() == model.hasNormals))
     return wrong(fmt::format("colours: {}, normals: {}", model.hasColours, model.hasNormals),
                  fmt::format("{}, {}", !page.colours.empty(), !page.normals.empty()));
@@ -115,7 +116,7 @@ Result<GeometryPage> PackFile::readGeometry(uint32_t page) const {
   Result<GeometryPage> decoded = decodeGeometryPage(bytes, {maxCoordinate, record.decodedBytes});
   if (!decoded) return inPage(*this, page, decoded.error().message);
   const Result<> checked = checkDecodedSize(record.decodedBytes, decodedSizeBytes(*decoded)).and_then([&] {
-    return checkGeometry(*decoded, cell, directory_.model);
+    return checkGeometry(*decoded, record.group, cell, directory_.model);
   });
   if (!checked) return inPage(*this, page, checked.error().message);
   return decoded;

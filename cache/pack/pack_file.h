@@ -25,7 +25,7 @@ class PackWriter {
   static Result<PackWriter> create(const std::filesystem::path& path);
   PackWriter(PackWriter&&) noexcept = default;
 
-  // Returns the new page's index. Pages of a cell's views must be added one after the other, by rising group.
+  // Returns the new page's index. Pages of a cell of one kind must be added one after the other, by rising group.
   // REQUIRES: `stored` is what the encoder of that kind returned, `decodedBytes` the page's decodedSizeBytes.
   Result<uint32_t> add(PageKind kind, uint32_t cell, uint32_t group, uint32_t decodedBytes,
                        std::span<const std::byte> stored);

@@ -29,7 +29,8 @@ Result<> writeCell(uint32_t cell, const CellPages& pages, PackWriter& writer, Di
   for (const EncodedPage& page : pages.pages) {
     FARCELL_ASSIGN(const uint32_t index, writer.add(page.kind, cell, page.group, page.decodedBytes, page.bytes));
     if (page.kind == PageKind::geometry) {
-      record.geometryPage = index;
+      if (record.geometryPageCount++ == 0) record.firstGeometryPage = index;
+      record.meshTriangles = record.triangles;
       report.geometryBytes += page.bytes.size();
       continue;
     }

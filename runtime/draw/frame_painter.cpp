@@ -106,22 +106,24 @@ Result<> FramePainter::paintTriangles(const Frame& frame) {
   for (size_t i = 0; i < frame.cut.entries.size(); ++i) {
     const CutEntry& entry = frame.cut.entries[i];
     const CellRecord& cell = directory.cells[entry.cell];
-    if (entry.representation != Representation::triangles || cell.geometryPage == kNone) continue;
-    if (!geometry_.keep(entry.cell)) {
-      FARCELL_ASSIGN(const GeometryPage page, pack_.readGeometry(cell.geometryPage));
-      frame.counts.bytesRead += directory.pages[cell.geometryPage].storedBytes;
-      if (page.indices.empty()) continue;
-      const GpuMesh mesh = makeGpuMesh(page, cellBox(directory.model.grid, cell.key).min);
-      if (!geometry_.add(entry.cell, mesh)) {
-        geometry_.draw(portion, tints);
-        portion.clear();
-        tints.clear();
-        geometry_.beginPortion();
-        FARCELL_CHECK(geometry_.add(entry.cell, mesh));
+    if (entry.representation != Representation::triangles) continue;
+    for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
+      const uint32_t index = cell.firstGeometryPage + part;
+      if (!geometry_.keep(index)) {
+        FARCELL_ASSIGN(const GeometryPage page, pack_.readGeometry(index));
+        frame.counts.bytesRead += directory.pages[index].storedBytes;
+        const GpuMesh mesh = makeGpuMesh(page, cellBox(directory.model.grid, cell.key).min);
+        if (!geometry_.add(index, mesh)) {
+          geometry_.draw(portion, tints);
+          portion.clear();
+          tints.clear();
+          geometry_.beginPortion();
+          FARCELL_CHECK(geometry_.add(index, mesh));
+        }
       }
+      portion.push_back(index);
+      if (!frame.plan.tints.empty()) tints.push_back(frame.plan.tints[i]);
     }
-    portion.push_back(entry.cell);
-    if (!frame.plan.tints.empty()) tints.push_back(frame.plan.tints[i]);
   }
   geometry_.draw(portion, tints);
   return {};

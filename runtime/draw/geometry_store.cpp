@@ -44,17 +44,17 @@ GlVertexArray createLayout() {
 
 }  // namespace
 
-bool GeometryStore::keep(uint32_t cell) {
-  const auto found = residents_.find(cell);
+bool GeometryStore::keep(uint32_t page) {
+  const auto found = residents_.find(page);
   if (found == residents_.end()) return false;
   found->second.portion = portion_;
   return true;
 }
 
-bool GeometryStore::add(uint32_t cell, const GpuMesh& mesh) {
-  FARCELL_CHECK(!mesh.indices.empty() && residents_.count(cell) == 0);
+bool GeometryStore::add(uint32_t page, const GpuMesh& mesh) {
+  FARCELL_CHECK(!mesh.indices.empty() && residents_.count(page) == 0);
   const uint64_t needBytes = mesh.vertices.size() * sizeof(GpuVertex) + mesh.indices.size() * sizeof(uint32_t);
-  while (!place(cell, mesh)) {
+  while (!place(page, mesh)) {
     if (usedBytes_ + std::max(needBytes, std::min(kChunkBytes, budgetBytes_)) <= budgetBytes_) {
       addChunk(mesh);
     } else if (!evictOldest()) {
@@ -65,7 +65,7 @@ bool GeometryStore::add(uint32_t cell, const GpuMesh& mesh) {
   return true;
 }
 
-bool GeometryStore::place(uint32_t cell, const GpuMesh& mesh) {
+bool GeometryStore::place(uint32_t page, const GpuMesh& mesh) {
   const auto vertexCount = static_cast<uint32_t>(mesh.vertices.size());
   const auto indexCount = static_cast<uint32_t>(mesh.indices.size());
   for (auto chunk = chunks_.begin(); chunk != chunks_.end(); ++chunk) {
@@ -80,7 +80,7 @@ bool GeometryStore::place(uint32_t cell, const GpuMesh& mesh) {
                          static_cast<GLsizeiptr>(vertexCount * sizeof(GpuVertex)), mesh.vertices.data());
     glNamedBufferSubData(chunk->indices.name(), static_cast<GLintptr>(*firstIndex * sizeof(uint32_t)),
                          static_cast<GLsizeiptr>(indexCount * sizeof(uint32_t)), mesh.indices.data());
-    residents_[cell] = {chunk, *firstVertex, vertexCount, *firstIndex, indexCount, portion_};
+    residents_[page] = {chunk, *firstVertex, vertexCount, *firstIndex, indexCount, portion_};
     return true;
   }
   return false;
@@ -127,15 +127,15 @@ void GeometryStore::bindTints(const std::vector<Tint>& tints) {
   glEnableVertexArrayAttrib(layout_.name(), kTintAttribute);
 }
 
-void GeometryStore::draw(const std::vector<uint32_t>& cells, const std::vector<Tint>& tints) {
-  if (cells.empty()) return;
-  FARCELL_CHECK(tints.empty() || tints.size() == cells.size());
+void GeometryStore::draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints) {
+  if (pages.empty()) return;
+  FARCELL_CHECK(tints.empty() || tints.size() == pages.size());
   if (!layout_) layout_ = createLayout();
   if (!commands_) commands_ = createBuffer();
   bindTints(tints);
   std::map<const Chunk*, std::vector<DrawCommand>> perChunk;
-  for (uint32_t i = 0; i < cells.size(); ++i) {
-    const Resident& resident = residents_.at(cells[i]);
+  for (uint32_t i = 0; i < pages.size(); ++i) {
+    const Resident& resident = residents_.at(pages[i]);
     perChunk[&*resident.chunk].push_back(
         {resident.indexCount, 1, resident.firstIndex, static_cast<int32_t>(resident.firstVertex), i});
   }

@@ -1,4 +1,4 @@
-// Full triangles of cells on the GPU, within a byte budget; the cells used longest ago leave first.
+// Pages of geometry on the GPU, within a byte budget; those used longest ago leave first.
 //
 // A frame is drawn in portions: what was asked for since `beginPortion` stays until the next one. When `add` refuses,
 // the caller draws what it has, begins a new portion and adds again.
@@ -18,23 +18,23 @@ namespace farcell {
 
 class GeometryStore {
  public:
-  // One cell is always held, also when it alone is larger than the budget.
+  // One page is always held, also when it alone is larger than the budget.
   explicit GeometryStore(uint64_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
   void beginPortion() { ++portion_; }
-  // Keeps a resident cell for this portion; false when it is not resident.
-  bool keep(uint32_t cell);
-  // Uploads and keeps. False, and nothing changed that matters, when the portion's cells leave no room.
-  bool add(uint32_t cell, const GpuMesh& mesh);
-  // Draws resident cells kept in this portion, with the bound program: one multi-draw for each buffer they lie in.
-  // `tints`: of each cell, at location 3; empty: the program asks for none.
+  // Keeps a resident page for this portion; false when it is not resident.
+  bool keep(uint32_t page);
+  // Uploads and keeps. False, and nothing changed that matters, when the portion's pages leave no room.
+  bool add(uint32_t page, const GpuMesh& mesh);
+  // Draws resident pages kept in this portion, with the bound program: one multi-draw for each buffer they lie in.
+  // `tints`: of each page, at location 3; empty: the program asks for none.
   using Tint = std::array<uint8_t, 4>;
-  void draw(const std::vector<uint32_t>& cells, const std::vector<Tint>& tints);
+  void draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints);
 
   uint64_t usedBytes() const { return usedBytes_; }
 
  private:
-  // One vertex and one index buffer, shared by many cells.
+  // One vertex and one index buffer, shared by many pages.
   struct Chunk {
     GlBuffer vertices;
     GlBuffer indices;
@@ -50,7 +50,7 @@ class GeometryStore {
     uint64_t portion;  // last use
   };
 
-  bool place(uint32_t cell, const GpuMesh& mesh);
+  bool place(uint32_t page, const GpuMesh& mesh);
   void addChunk(const GpuMesh& mesh);
   bool evictOldest();
   void bindTints(const std::vector<Tint>& tints);

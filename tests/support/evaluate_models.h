@@ -126,7 +126,9 @@ inline void writeTestPack(const TestModel& model, const std::filesystem::path& p
     directory.report.geometryBytes += stored.size();
     const auto added = writer->add(PageKind::geometry, index, 0, decodedSizeBytes(page), stored);
     ASSERT_TRUE(added) << added.error().message;
-    cell.geometryPage = *added;
+    cell.meshTriangles = cell.triangles;
+    cell.firstGeometryPage = *added;
+    cell.geometryPageCount = 1;
     directory.cells[0].content.include(cell.content);
     if (oneLeaf)
       directory.cells[0] = cell;

@@ -182,8 +182,10 @@ Result<> writeSyntheticPack(const std::filesystem::path& path, const std::vector
   for (uint32_t i = 0; i < cells.size(); ++i) {
     CellRecord& record = cells[i].record;
     if (record.childCount == 0) {
-      FARCELL_ASSIGN(record.geometryPage, writer.add(PageKind::geometry, i, 0, decodedSizeBytes(cells[i].page),
-                                                     encodeGeometryPage(cells[i].page)));
+      FARCELL_ASSIGN(record.firstGeometryPage, writer.add(PageKind::geometry, i, 0, decodedSizeBytes(cells[i].page),
+                                                          encodeGeometryPage(cells[i].page)));
+      record.meshTriangles = record.triangles;
+      record.geometryPageCount = 1;
     }
     if (settings.withViews && (record.childCount == 0 || settings.withInnerViews))
       FARCELL_TRY(addViews(writer, i, record, localTriangles(cells, model.grid, record.key, sunDirection(settings.up)),

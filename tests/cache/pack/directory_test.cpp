@@ -1,6 +1,8 @@
 // A directory whose checksums are right but whose fields lie: only the reader's own checks can refuse it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <functional>
 #include <limits>
 
@@ -156,22 +158,40 @@ TEST_F(LyingDirectory, IsRefusedForItsContent) {
 
 TEST_F(LyingDirectory, IsRefusedForWhatItsCellsSayOfPages) {
   expectRefused(
-      "geometry out of range", [](Directory& d) { d.cells[1].geometryPage = 5; }, "its own geometry");
+      "geometry out of range", [](Directory& d) { d.cells[1].firstGeometryPage = 5; }, "its own geometry");
   expectRefused(
-      "geometry of another", [](Directory& d) { d.cells[1].geometryPage = 3; }, "its own geometry");
+      "geometry of another", [](Directory& d) { d.cells[1].firstGeometryPage = 3; }, "its own geometry");
   expectRefused(
-      "geometry that is views", [](Directory& d) { d.cells[1].geometryPage = 0; }, "its own geometry");
+      "geometry that is views", [](Directory& d) { d.cells[1].firstGeometryPage = 0; }, "its own geometry");
   expectRefused(
-      "none", [](Directory& d) { d.cells[1].geometryPage = kNone; }, "a page for 1 triangles");
+      "none", [](Directory& d) { d.cells[1].firstGeometryPage = kNone; }, "1 pages for 1 triangles");
   expectRefused(
-      "of an inner cell",
+      "too few", [](Directory& d) { d.cells[1].geometryPageCount = 0; }, "1 pages for 1 triangles");
+  expectRefused(
+      "not all of a leaf's triangles", [](Directory& d) { d.cells[1].meshTriangles = 0; }, "all 1 triangles");
+  expectRefused(
+      "more than has parts",
       [](Directory& d) {
-        d.cells[0].geometryPage = 2;
-        d.pages[2].cell = 0;
-        d.cells[1].geometryPage = kNone;
-        d.cells[1].triangles = 0;
+        d.cells[0].meshTriangles = UINT64_MAX;
+        d.cells[0].firstGeometryPage = 2;
       },
-      "of a leaf only");
+      "at most");
+  expectRefused(
+      "an error that is no number", [](Directory& d) { d.cells[0].geometricError = std::nan(""); }, "geometric error");
+  expectRefused(
+      "an error below 0", [](Directory& d) { d.cells[0].geometricError = -1; }, "geometric error");
+  expectRefused(
+      "an error of a leaf", [](Directory& d) { d.cells[1].geometricError = 1; }, "no geometric error");
+  expectRefused(
+      "a part's number", [](Directory& d) { d.pages[2].group = 1; }, "by part");
+  expectRefused(
+      "of two cells",
+      [](Directory& d) {
+        d.cells[0].meshTriangles = 1;
+        d.cells[0].firstGeometryPage = 2;
+        d.cells[0].geometryPageCount = 1;
+      },
+      "its own geometry");
   expectRefused(
       "views out of range", [](Directory& d) { d.cells[2].viewPageCount = 2; }, "pages of views below 5");
   expectRefused(
@@ -249,7 +269,8 @@ TEST_F(LyingDirectory, IsFoundOutWhenAPageIsRead) {
     return message.find(part) != std::string::npos ? ::testing::AssertionSuccess()
                                                    : ::testing::AssertionFailure() << message;
   };
-  EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].triangles = 2; }), "page 2: expected 2 triangles, found 1"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].triangles = d.cells[1].meshTriangles = 2; }),
+                  "page 2: expected 2 triangles, found 1"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].content.max.x = 999; }), "page 2: expected positions inside"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes += 4; }), "page 3: expected 76 decoded bytes"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes -= 4; }), "page 3: byte 0 of the page"));

@@ -110,8 +110,9 @@ Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
   text.u64({2, 4, 42, 2, views.size(), 30, geometry.size()});
   text.u32({1}).string("zeroArea").u64({9});
   text.u32({0});
+  text.u32({0});
   text.u32({1});
-  text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1}).u32({0, 0, 0, 4, 4, 0}).u64({2});
+  text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1, 1}).u32({0, 0, 0, 4, 4, 0}).u64({2, 2, 0});
   text.u32({2});
   text.u32({1, 0, 0, geometry.size(), 4 * (4 * 4 + 6), 0}).u64({places[0].first, places[0].second});
   text.u32({2, 0, group, views.size(), 5 * 6, 0}).u64({places[1].first, places[1].second});

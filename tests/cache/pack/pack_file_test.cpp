@@ -41,8 +41,10 @@ TEST(PackFile, GivesBackEverythingThatWasWritten) {
     EXPECT_EQ(
         std::tie(found.key, found.parent, found.firstChild, found.childCount, found.content, found.triangles),
         std::tie(wanted.key, wanted.parent, wanted.firstChild, wanted.childCount, wanted.content, wanted.triangles));
-    EXPECT_EQ(std::tie(found.geometryPage, found.firstViewPage, found.viewPageCount),
-              std::tie(wanted.geometryPage, wanted.firstViewPage, wanted.viewPageCount));
+    EXPECT_EQ(std::tie(found.meshTriangles, found.geometricError, found.firstGeometryPage, found.geometryPageCount,
+                       found.firstViewPage, found.viewPageCount),
+              std::tie(wanted.meshTriangles, wanted.geometricError, wanted.firstGeometryPage, wanted.geometryPageCount,
+                       wanted.firstViewPage, wanted.viewPageCount));
   }
   EXPECT_EQ(pack->readViews(0), expected.views[0]);
   EXPECT_EQ(pack->readViews(1), expected.views[1]);
@@ -157,7 +159,9 @@ void writeSmallPack(const std::filesystem::path& path) {
   directory.cells.resize(1);
   directory.cells[0].content = {GridPoint(0), GridPoint(5, 5, 0)};
   directory.cells[0].triangles = 1;
-  directory.cells[0].geometryPage = 0;
+  directory.cells[0].meshTriangles = 1;
+  directory.cells[0].firstGeometryPage = 0;
+  directory.cells[0].geometryPageCount = 1;
   directory.cells[0].firstViewPage = 1;
   directory.cells[0].viewPageCount = 1;
   std::mt19937 random(1);

@@ -155,12 +155,16 @@ inline Directory fullDirectory() {
                         .parent = 0,
                         .content = {GridPoint(0), GridPoint(1000, 1000, 0)},
                         .triangles = 1,
-                        .geometryPage = 2};
+                        .meshTriangles = 1,
+                        .firstGeometryPage = 2,
+                        .geometryPageCount = 1};
   directory.cells[2] = {.key = {1, 1, 0, 0},
                         .parent = 0,
                         .content = {GridPoint(1 << 19, 0, 0), GridPoint((1 << 19) + 7, 7, 0)},
                         .triangles = 1,
-                        .geometryPage = 3,
+                        .meshTriangles = 1,
+                        .firstGeometryPage = 3,
+                        .geometryPageCount = 1,
                         .firstViewPage = 4,
                         .viewPageCount = 1};
   return directory;

@@ -235,7 +235,9 @@ TEST(PackPageSource, ServesThePagesOfAPack) {
   directory.cells[0] = {.key = {},
                         .content = {GridPoint(0), GridPoint(4)},
                         .triangles = 1,
-                        .geometryPage = 0,
+                        .meshTriangles = 1,
+                        .firstGeometryPage = 0,
+                        .geometryPageCount = 1,
                         .firstViewPage = 1,
                         .viewPageCount = 1};
   GeometryPage geometry;

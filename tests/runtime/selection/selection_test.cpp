@@ -58,7 +58,8 @@ class RandomTree {
         record.content.max[axis] = std::max(a, b);
       }
       record.triangles = std::uniform_int_distribution<uint64_t>(1, 1000)(random_);
-      record.geometryPage = 0;
+      record.firstGeometryPage = 0;
+      record.geometryPageCount = 1;
     }
     for (uint32_t child = record.firstChild; child < record.firstChild + record.childCount; ++child) {
       record.content.include(directory.cells[child].content);

@@ -23,7 +23,7 @@ struct Walk {
     const auto bounds = screenBounds(view, grid.worldFromGrid(cell.content.min), grid.worldFromGrid(cell.content.max));
     if (!bounds) return;
     if (cell.childCount == 0) {
-      if (cell.geometryPage != kNone) leaves.push_back({index, *bounds});
+      if (cell.geometryPageCount > 0) leaves.push_back({index, *bounds});
       return;
     }
     visitChildren(cell);

@@ -13,27 +13,35 @@ namespace {
 constexpr size_t kBatchLeaves = 64;
 constexpr uint64_t kBatchTriangles = 500'000;
 
-// A leaf's cube becomes [-1, 1]^3. Grid steps have at most 24 bits, so positions are exact.
-LocalTriangles localTriangles(const Grid& grid, const CellRecord& cell, const GeometryPage& page) {
+// A leaf's cube becomes [-1, 1]^3.
+LocalTriangles localFrame(const Grid& grid, const CellRecord& cell) {
   LocalTriangles local;
   local.origin = cellCentre(grid, cell.key);
   local.unit = cellHalfSide(grid, cell.key);
   local.min = grid.worldFromGrid(cell.content.min);
   local.max = grid.worldFromGrid(cell.content.max);
-  const float steps = std::ldexp(1.0f, grid.bits - static_cast<int>(cell.key.level));
-  local.positions.reserve(page.positions.size() + 1);
+  return local;
+}
+
+// Grid steps have at most 24 bits, so positions are exact.
+void append(const GeometryPage& page, float steps, LocalTriangles& local) {
+  const auto first = static_cast<uint32_t>(local.positions.size());
   for (const glm::uvec3& p : page.positions) local.positions.push_back(glm::vec3(p) * (2 / steps) - glm::vec3(1));
   for (size_t i = 0; i + 2 < page.indices.size(); i += 3)
-    local.triangles.emplace_back(page.indices[i], page.indices[i + 1], page.indices[i + 2]);
-  local.colours = page.colours;
-  local.normals = page.normals;
-  return local;
+    local.triangles.push_back(glm::uvec3(page.indices[i], page.indices[i + 1], page.indices[i + 2]) + first);
+  local.colours.insert(local.colours.end(), page.colours.begin(), page.colours.end());
+  local.normals.insert(local.normals.end(), page.normals.begin(), page.normals.end());
 }
 
 Result<TracedGeometry> loadLeaf(const PackFile& pack, uint32_t cell, RTCDevice device) {
   const CellRecord& record = pack.directory().cells[cell];
-  FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(record.geometryPage));
-  return buildTracedGeometry(device, localTriangles(pack.directory().model.grid, record, page));
+  const Grid& grid = pack.directory().model.grid;
+  LocalTriangles local = localFrame(grid, record);
+  for (uint32_t part = 0; part < record.geometryPageCount; ++part) {
+    FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(record.firstGeometryPage + part));
+    append(page, std::ldexp(1.0f, grid.bits - static_cast<int>(record.key.level)), local);
+  }
+  return buildTracedGeometry(device, std::move(local));
 }
 
 // The next leaves that still have open samples in front of them.

@@ -1,0 +1,96 @@
+// What the jobs of a build have finished: meshes and views of cells, coded, in the journal of the work directory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "cache/pack/pages.h"
+#include "preprocess/build/journal.h"
+
+namespace farcell {
+
+// One part of a mesh, as the pack keeps it.
+struct CodedPart {
+  uint32_t decodedBytes = 0;
+  std::vector<std::byte> bytes;
+};
+
+// The mesh of a cell. An inner cell may have none: no triangles, no parts.
+struct CodedMesh {
+  uint64_t triangles = 0;
+  double errorSteps = 0;  // geometric error in steps of the model's grid
+  std::vector<CodedPart> parts;
+};
+struct MeshFigures {
+  uint64_t triangles = 0;
+  double errorSteps = 0;
+  uint32_t bytes = 0;  // of all parts, at most 2^32 - 1
+};
+
+// Some views of a cell: pairs [first, first + count) of view and antipode, of Viewpoints' pairs in rising order.
+struct ViewBatch {
+  uint32_t cell = 0;
+  uint32_t firstPair = 0;
+  uint32_t pairCount = 0;
+};
+
+struct BatchFigures {
+  uint64_t baked = 0;
+  uint64_t empty = 0;
+  uint64_t rawBytes = 0;  // of those that are not, before coding
+};
+
+// A coded view that could be in the pack.
+struct ViewFigures {
+  uint32_t cell = 0;
+  uint32_t view = 0;
+  uint32_t bytes = 0;   // of the stream
+  uint32_t texels = 0;  // of the cropped image
+};
+
+class CellStore {
+ public:
+  // `writer`: the number of this process.
+  static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer);
+
+  // Any thread.
+  Result<> add(uint32_t cell, const CodedMesh& mesh);
+  Result<> add(const ViewBatch& batch, const BatchFigures& figures, std::span<const EncodedView> views);
+  bool hasMesh(uint32_t cell) const;
+  bool has(const ViewBatch& batch) const;
+  MeshFigures meshFigures(uint32_t cell) const;  // REQUIRES: hasMesh
+  Result<CodedMesh> mesh(uint32_t cell) const;   // REQUIRES: hasMesh
+  // Not empty, by rising view.
+  Result<std::vector<EncodedView>> views(uint32_t cell) const;
+
+  // What other processes have added since.
+  Result<> refresh() { return journal_->refresh(); }
+  // By cell, then view. Call it when nothing is added any more.
+  std::vector<ViewFigures> viewFigures() const;
+  BatchFigures totals() const;
+
+ private:
+  enum class Kind : uint32_t { mesh = 1, views = 2 };
+  struct StoredMesh {
+    MeshFigures figures;
+    JournalPlace place;
+  };
+
+  CellStore() = default;
+  void found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place);
+  void foundViews(uint32_t cell, std::span<const std::byte> head);
+
+  mutable std::mutex mutex_;
+  // Guarded by mutex_ while something is added:
+  std::map<uint32_t, StoredMesh> meshes_;
+  std::map<uint64_t, JournalPlace> batches_;  // by cell, then first pair
+  std::vector<ViewFigures> views_;
+  BatchFigures totals_;
+  std::unique_ptr<Journal> journal_;  // the last: its sink fills the others
+};
+
+}  // namespace farcell
