@@ -83,14 +83,14 @@ Bytes viewPage(uint32_t second) {
   const Bytes first =
       deflated(Text().raw({100, 5, 251, 255, 100, 5, 251, 255, 0, 0, 0, 0, 10, 0, 0, 20}).raw({50, 60, 1, 255}).bytes);
   const Bytes other = deflated(Text().raw({7, 1, 0, 0, 0, 0, 255, 0, 9, 4}).bytes);
-  const uint64_t begin = 8 + 2 * 28;
+  const uint64_t begin = 8 + 2 * 32;
   Text page;
   page.u32({2, 5});
   page.u32({0}).number(3, 2).number(4, 2).number(2, 2).number(2, 2);
-  page.u32({kF32MinusOne, kF32One, 1u << 16, begin + first.size()});
+  page.u32({kF32MinusOne, kF32One, 1u << 16, begin, first.size()});
   // Filters: G left (2), R - G none, B - G none, A left (2), depth average (3); arrangement planes.
   page.u32({second}).number(0, 2).number(0, 2).number(2, 2).number(1, 2);
-  page.u32({0, 0, 0x10000000u | 2u | 2u << 12 | 3u << 16, begin + first.size() + other.size()});
+  page.u32({0, 0, 0x10000000u | 2u | 2u << 12 | 3u << 16, begin + first.size(), other.size()});
   return page.append(first).append(other).bytes;
 }
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "cache/pack/encoded_view.h"
 #include "cache/pack/zlib_stream.h"
 #include "tests/cache/pack/samples.h"
 
@@ -14,7 +15,7 @@ using samples::Bytes;
 constexpr uint32_t kViewCount = 42;
 constexpr uint32_t kImageSize = 64;
 constexpr size_t kPageHeaderBytes = 8;
-constexpr size_t kViewHeaderBytes = 28;
+constexpr size_t kViewHeaderBytes = 32;
 
 ViewPage randomPage(uint32_t seed, bool normals, uint32_t imageSize = kImageSize) {
   std::mt19937 random(seed);
@@ -44,11 +45,9 @@ void setNumber(Bytes& bytes, size_t offset, size_t size, uint32_t value) {
 
 // Decodes one view by FORMAT.md with zlib, given the page's header alone and no other view; none of the library's code.
 ViewImage plainlyDecoded(std::span<const std::byte> page, size_t index) {
-  const uint32_t views = number(page, 0, 4), planeCount = number(page, 4, 4);
+  const uint32_t planeCount = number(page, 4, 4);
   const size_t header = kPageHeaderBytes + index * kViewHeaderBytes;
-  const size_t begin =
-      index == 0 ? kPageHeaderBytes + views * kViewHeaderBytes : number(page, header - kViewHeaderBytes + 24, 4);
-  const size_t end = number(page, header + 24, 4);
+  const size_t begin = number(page, header + 24, 4), end = begin + number(page, header + 28, 4);
   ViewImage view;
   view.view = number(page, header, 4);
   view.x0 = number(page, header + 4, 2);
@@ -156,6 +155,55 @@ TEST(ViewPageCoding, TakesFewBytesForFlatAreasAndForGradients) {
   }
 }
 
+std::vector<EncodedView> encodedOneByOne(const ViewPage& page) {
+  std::vector<EncodedView> views;
+  for (const ViewImage& image : page.views) views.push_back(encodeView(image));
+  return views;
+}
+
+TEST(ViewPageCoding, PutsTogetherViewsCodedOneByOne) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const ViewPage page = randomPage(seed, seed % 2);
+    const std::vector<EncodedView> views = encodedOneByOne(page);
+    EXPECT_EQ(viewPageOf(views).bytes, encodeViewPage(page));
+    EXPECT_EQ(decodedSizeBytes(views), decodedSizeBytes(page));
+    const auto taken = viewsOfPage(viewPageOf(views).bytes, {kViewCount, kImageSize, decodedSizeBytes(views)});
+    ASSERT_TRUE(taken.has_value()) << taken.error().message;
+    EXPECT_EQ(*taken, views);
+  }
+}
+
+TEST(ViewPageCoding, StoresEqualStreamsOnce) {
+  std::mt19937 random(8);
+  ViewPage page;
+  page.views = {samples::randomView(random, 1, 32, true, 2), samples::randomView(random, 2, 32, true, 0)};
+  const Bytes two = encodeViewPage(page);
+  // Equal texels elsewhere and at other depths are equal streams.
+  page.views.push_back(page.views[0]);
+  page.views[2].view = 9;
+  page.views[2].depthMax += 1;
+  const EncodedViewPage three = viewPageOf(encodedOneByOne(page));
+  EXPECT_EQ(three.duplicates, 1u);
+  EXPECT_EQ(three.duplicateBytes, encodeView(page.views[0]).stream.size());
+  EXPECT_EQ(three.bytes.size(), two.size() + kViewHeaderBytes);
+  EXPECT_EQ(decode(three.bytes, page), page);
+}
+
+// 1280 equal views of 1024 x 1024 constant texels would be gigabytes out of some kilobytes.
+TEST(ViewPageCoding, SharesNoMoreThanAStreamCouldHold) {
+  EncodedView view = encodeView({.width = 256,
+                                 .height = 256,
+                                 .rgba = std::vector<uint8_t>(4 * 256 * 256),
+                                 .depth = std::vector<uint8_t>(256 * 256),
+                                 .normal = {}});
+  std::vector<EncodedView> views;
+  for (; view.view < 40; ++view.view) views.push_back(view);
+  const EncodedViewPage page = viewPageOf(views);
+  EXPECT_GE(kMaxZlibRatio * page.bytes.size(), decodedSizeBytes(views));
+  EXPECT_EQ(viewsOfPage(page.bytes, {40, 256, decodedSizeBytes(views)}), views);
+}
+
 TEST(ViewPageCoding, RefusesEveryTruncationAndOneByteMore) {
   const ViewPage page = randomPage(3, true);
   Bytes bytes = encodeViewPage(page);
@@ -203,9 +251,12 @@ TEST(ViewPageCoding, RefusesHeadersThatLie) {
   EXPECT_TRUE(refused(header + 16, 4, std::bit_cast<uint32_t>(-2.0f)));
   for (const uint32_t coding : {0x20000000u, 0x00000001u, 0x10000004u, 0x10100000u, 0x00040000u})
     EXPECT_TRUE(refused(header + 20, 4, coding)) << coding;
-  const uint32_t end = number(bytes, header + 24, 4);
-  for (const uint32_t wrong : {0u, end - 1, end + 1, static_cast<uint32_t>(bytes.size()), ~0u})
-    EXPECT_TRUE(refused(header + 24, 4, wrong)) << wrong;
+  for (const size_t field :
+       {header + 24, header + 28, header + kViewHeaderBytes + 24, header + kViewHeaderBytes + 28}) {
+    const uint32_t right = number(bytes, field, 4);
+    for (const uint32_t wrong : {0u, 1u, right - 1, right + 1, static_cast<uint32_t>(bytes.size()), ~0u})
+      EXPECT_TRUE(refused(field, 4, wrong)) << field << ' ' << wrong;
+  }
 }
 
 TEST(ViewPageCoding, AllocatesNothingForAClaimNoDeflateStreamCanKeep) {
@@ -214,10 +265,11 @@ TEST(ViewPageCoding, AllocatesNothingForAClaimNoDeflateStreamCanKeep) {
   setNumber(bytes, 4, 4, 5);
   setNumber(bytes, kPageHeaderBytes + 8, 2, 1024);
   setNumber(bytes, kPageHeaderBytes + 10, 2, 1024);
-  setNumber(bytes, kPageHeaderBytes + 24, 4, static_cast<uint32_t>(bytes.size()));
+  setNumber(bytes, kPageHeaderBytes + 24, 4, kPageHeaderBytes + kViewHeaderBytes);
+  setNumber(bytes, kPageHeaderBytes + 28, 4, 100);
   const auto decoded = decodeViewPage(bytes, {1, 1024, ~uint64_t{0}});
   ASSERT_FALSE(decoded.has_value());
-  EXPECT_NE(decoded.error().message.find("the end of a stream"), std::string::npos) << decoded.error().message;
+  EXPECT_NE(decoded.error().message.find("at most 144480 decoded bytes"), std::string::npos) << decoded.error().message;
 }
 
 TEST(ViewPageCoding, SurvivesDamage) {
