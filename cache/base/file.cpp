@@ -1,6 +1,7 @@
 #include "cache/base/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,6 +55,25 @@ Result<> syncDirectory(const std::filesystem::path& directory) {
   ::close(descriptor);
   if (status != 0) return ioError(directory, "cannot sync directory", code);
   return {};
+}
+
+// Opens or creates a file that no other process writes, locked as long as it is open. What a killed process left of it
+// may be there.
+Result<int> openPartial(const std::filesystem::path& name) {
+  for (;;) {
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (descriptor < 0) return ioError(name, "cannot create", errno);
+    struct stat opened {}, named {};
+    const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (locked && ::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && ::stat(name.c_str(), &named) == 0 &&
+        opened.st_ino == named.st_ino)
+      return descriptor;
+    ::close(descriptor);
+    if (!locked) return fail(ErrorKind::io, "{}: expected a file that no other process writes", name.string());
+    if (opened.st_mode != 0 && !S_ISREG(opened.st_mode))
+      return fail(ErrorKind::io, "{}: expected a regular file or nothing there, found something else", name.string());
+    // Another process has just renamed or removed it: once more.
+  }
 }
 
 }  // namespace
@@ -116,13 +136,11 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
     return fail(ErrorKind::io, "{}: expected a regular file or nothing there, found something else", path.string());
-  std::string name = (directoryOf(path) / (path.filename().string() + ".XXXXXX")).string();
-  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
-  if (descriptor < 0) return ioError(path, "cannot create", errno);
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(descriptor, 0666 & ~mask);
-  return OutputFile(descriptor, path, name);
+  const std::filesystem::path name = directoryOf(path) / (path.filename().string() + ".partial");
+  FARCELL_ASSIGN(const int descriptor, openPartial(name));
+  OutputFile file(descriptor, path, name);
+  if (::ftruncate(descriptor, 0) != 0) return ioError(name, "cannot truncate", errno);
+  return file;
 }
 
 Result<> OutputFile::append(std::span<const std::byte> bytes) {

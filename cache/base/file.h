@@ -36,8 +36,9 @@ class InputFile {
   uint64_t sizeBytes_ = 0;
 };
 
-// A file written from start to end under a temporary name beside its final one. `commit` syncs it, renames
-// it and syncs the directory; without a commit the temporary file is removed and an older file stays whole.
+// A file written from start to end under a temporary name beside its final one, <name>.partial. `commit` syncs it,
+// renames it and syncs the directory; without a commit the temporary file is removed and an older file stays whole.
+// What a killed process leaves, the next one that writes the same file takes over.
 class OutputFile {
  public:
   // Refuses a path where a directory, FIFO or device stands.

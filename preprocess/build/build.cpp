@@ -1,13 +1,21 @@
 #include "preprocess/build/build.h"
 
+#include <malloc.h>
+#include <sys/stat.h>
+
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <vector>
 
+#include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
+#include "cache/pack/directory_codec.h"
 #include "cache/pack/pack_file.h"
-#include "preprocess/build/cell_bake.h"
-#include "preprocess/build/ordered_output.h"
+#include "preprocess/build/assemble.h"
+#include "preprocess/build/bake_job.h"
+#include "preprocess/build/mesh_job.h"
+#include "preprocess/build/work_directory.h"
 #include "preprocess/mesh/source_hash.h"
 #include "preprocess/partition/partition.h"
 #include "preprocess/read/open_mesh.h"
@@ -16,69 +24,81 @@
 namespace farcell {
 namespace {
 
-constexpr size_t kCellsAhead = 256;  // finished cells that may wait for a slower one
+using Samplers = std::vector<std::unique_ptr<TextureSampler>>;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Adds a finished cell to the pack and to the report.
-Result<> writeCell(uint32_t cell, const CellPages& pages, PackWriter& writer, Directory& directory) {
-  CellRecord& record = directory.cells[cell];
-  BuildReport& report = directory.report;
-  for (const EncodedPage& page : pages.pages) {
-    FARCELL_ASSIGN(const uint32_t index, writer.add(page.kind, cell, page.group, page.decodedBytes, page.bytes));
-    if (page.kind == PageKind::geometry) {
-      if (record.geometryPageCount++ == 0) record.firstGeometryPage = index;
-      record.meshTriangles = record.triangles;
-      report.geometryBytes += page.bytes.size();
-      continue;
-    }
-    if (record.viewPageCount++ == 0) record.firstViewPage = index;
-    report.impostorBytes += page.bytes.size();
-  }
-  report.viewsBaked += pages.viewsBaked;
-  report.viewsKept += pages.viewsKept;
-  report.impostorRawBytes += pages.impostorRawBytes;
-  if (pages.viewsEmpty > 0) report.viewsLeftOut["empty"] += pages.viewsEmpty;
-  if (pages.viewsCheaperAsTriangles > 0) report.viewsLeftOut["cheaperAsTriangles"] += pages.viewsCheaperAsTriangles;
-  return {};
-}
-
 // One for each thread; nulls when the mesh has no textures.
-std::vector<std::unique_ptr<TextureSampler>> samplersOf(const Textures& textures, int threads) {
-  std::vector<std::unique_ptr<TextureSampler>> samplers(static_cast<size_t>(threads));
+Samplers samplersOf(const Textures& textures, int threads) {
+  Samplers samplers(static_cast<size_t>(threads));
   for (auto& sampler : samplers)
     if (textures.count() > 0) sampler = textures.sampler();
   return samplers;
 }
 
-// Bakes and writes every cell; shares the stage's wall time between bake and encode.
-Result<> bakeCells(const CellTree& tree, const Partition& partition, const Textures& textures, int threads,
-                   PackWriter& writer, Directory& directory, StageSeconds& seconds, Progress& progress) {
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
-  const auto start = std::chrono::steady_clock::now();
-  double bake = 0, encode = 0;
-  progress.begin("bake", tree.cells.size() * static_cast<uint64_t>(viewpoints.count()), "views");
-  OrderedOutput<CellPages> output(kCellsAhead, [&](size_t cell, CellPages&& pages) {
-    bake += pages.bakeSeconds;
-    encode += pages.encodeSeconds;
-    return writeCell(static_cast<uint32_t>(cell), pages, writer, directory);
+// Runs jobs of this process's share on all threads, until the first error.
+Result<> runJobs(size_t count, int threads, Crew& crew, const std::function<Result<>(size_t job, int thread)>& run) {
+  std::atomic<bool> failed{false};
+  std::mutex mutex;
+  std::optional<Error> error;
+  const size_t own = (count + crew.size() - 1 - crew.rank()) / crew.size();
+  parallelFor(own, threads, [&](size_t i, int thread) {
+    if (failed) return;
+    const Result<> done = checkInterrupt().and_then([&] { return run(i * crew.size() + crew.rank(), thread); });
+    if (done || failed.exchange(true)) return;
+    const std::lock_guard lock(mutex);
+    error = done.error();
   });
-  const auto samplers = samplersOf(textures, threads);
-  parallelFor(tree.cells.size(), threads, [&](size_t cell, int worker) {
-    if (output.failed()) return;
-    TextureSampler* sampler = samplers[static_cast<size_t>(worker)].get();
-    output.put(cell, bakeCell(static_cast<uint32_t>(cell), directory.model, tree, partition, viewpoints, sampler));
-    progress.advance(static_cast<uint64_t>(viewpoints.count()));
-  });
-  FARCELL_TRY(output.result());
-  const double wall = secondsSince(start);
-  const double work = std::max(bake + encode, 1e-9);
-  seconds.bake = wall * bake / work;
-  seconds.encode = wall * encode / work;
+  if (error) return tl::unexpected<Error>(*error);
   return {};
 }
+
+class Jobs {
+ public:
+  Jobs(const BuildContext& context, const Samplers& samplers, int threads, Crew& crew, Progress& progress)
+      : context_(context), samplers_(samplers), threads_(threads), crew_(crew), progress_(progress) {}
+
+  Result<> meshes() {
+    const std::vector<uint32_t> leaves = without(leavesOf(context_.tree));
+    progress_.begin("mesh", leaves.size(), "cells");
+    return share(leaves.size(), [&](size_t job, int thread) -> Result<> {
+      FARCELL_TRY(codeLeaf(context_, leaves[job], samplers_[static_cast<size_t>(thread)].get()));
+      progress_.advance();
+      return {};
+    });
+  }
+
+  Result<> views() {
+    std::vector<ViewBatch> batches = viewBatches(context_);
+    std::erase_if(batches, [&](const ViewBatch& batch) { return context_.store.has(batch); });
+    uint64_t pairs = 0;
+    for (const ViewBatch& batch : batches) pairs += batch.pairCount;
+    progress_.begin("bake", 2 * pairs, "views");
+    return share(batches.size(), [&](size_t job, int thread) -> Result<> {
+      FARCELL_TRY(bakeBatch(context_, batches[job], samplers_[static_cast<size_t>(thread)].get()));
+      progress_.advance(2 * uint64_t{batches[job].pairCount});
+      return {};
+    });
+  }
+
+ private:
+  std::vector<uint32_t> without(std::vector<uint32_t> cells) const {
+    std::erase_if(cells, [&](uint32_t cell) { return context_.store.hasMesh(cell); });
+    return cells;
+  }
+  Result<> share(size_t count, const std::function<Result<>(size_t job, int thread)>& run) {
+    FARCELL_TRY(crew_.together(runJobs(count, threads_, crew_, run)));
+    return context_.store.refresh();
+  }
+
+  const BuildContext& context_;
+  const Samplers& samplers_;
+  const int threads_;
+  Crew& crew_;
+  Progress& progress_;
+};
 
 }  // namespace
 
@@ -101,40 +121,198 @@ Result<> checkSettings(const BuildSettings& settings) {
   return {};
 }
 
+namespace {
+
+// Of one state of a file's content.
+Result<std::string> fileStamp(const std::filesystem::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return fail(ErrorKind::io, "{}: cannot stat", path.string());
+  return fmt::format("{} {} {} {}.{}", path.string(), info.st_size, info.st_ino, info.st_mtim.tv_sec,
+                     info.st_mtim.tv_nsec);
+}
+
+// Everything that decides what jobs make; the identity of the work directory.
+Result<std::string> identityOf(const MeshReader& mesh, const BuildSettings& settings) {
+  std::string text = fmt::format("farcell {} pack {} settings {:016x}\n", FARCELL_VERSION, kPackVersion,
+                                 hashSettings(settings));
+  for (const std::filesystem::path& file : mesh.files()) {
+    FARCELL_ASSIGN(const std::string stamp, fileStamp(file));
+    text += fmt::format("{}\n", stamp);
+  }
+  return text;
+}
+
+class Build {
+ public:
+  Build(std::span<const std::filesystem::path> meshes, const std::filesystem::path& pack, const BuildOptions& options,
+        Progress& progress)
+      : meshes_(meshes),
+        pack_(pack),
+        options_(options),
+        threads_(threadCount(options.threads)),
+        crew_(options.crew != nullptr ? *options.crew : alone_),
+        progress_(progress) {}
+
+  Result<BuildResult> run() {
+    const Result<> built = phases();
+    if (workDirectory_) FARCELL_TRY(leave(built));
+    if (!built) return tl::unexpected<Error>(built.error());
+    result_.seconds.total = secondsSince(start_);
+    return std::move(result_);
+  }
+
+ private:
+  bool leads() const { return crew_.rank() == 0; }
+
+  Result<> phases() {
+    FARCELL_TRY(crew_.together(open()));
+    FARCELL_TRY(crew_.together(leads() ? partition() : Result<>()));
+    if (!leads()) FARCELL_TRY(partition());
+    return work();
+  }
+
+  // What was done stays where going on makes sense: not after success, nor when the input or a setting is wrong.
+  Result<> leave(const Result<>& built) {
+    store_.reset();
+    partition_.reset();
+    textures_.reset();
+    const bool goesOn = !built && (built.error().kind == ErrorKind::cancelled || built.error().kind == ErrorKind::io ||
+                                   built.error().kind == ErrorKind::exhausted);
+    if (goesOn && workDirectory_->holdsWork()) return {};
+    return workDirectory_->remove();
+  }
+
+  // The leader opens the work directory, the others only read there.
+  Result<> open() {
+    FARCELL_TRY(checkSettings(options_.settings));
+    FARCELL_TRY(checkOutput());
+    FARCELL_ASSIGN(reader_, openMeshes(meshes_));
+    settings_ = options_.settings;
+    if (options_.upOfModel) settings_.up = reader_->info().up;
+    if (options_.unitOfModel) settings_.metresPerUnit = reader_->info().metresPerUnit;
+    workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
+    if (!leads()) return {};
+    FARCELL_ASSIGN(WorkDirectory directory, WorkDirectory::open(options_.workParent, pack_));
+    workDirectory_.emplace(std::move(directory));
+    FARCELL_ASSIGN(const std::string identity, identityOf(*reader_, settings_));
+    FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identity));
+    FARCELL_ASSIGN(result_.directory.sourceHash, sourceHash(*reader_));
+    return {};
+  }
+
+  // Known before hours of work, not after them. Also clears away what a killed build left of the pack.
+  Result<> checkOutput() const {
+    if (!leads()) return {};
+    FARCELL_TRY(OutputFile::create(pack_));
+    return {};
+  }
+
+  Result<> partition() {
+    const auto start = std::chrono::steady_clock::now();
+    FARCELL_ASSIGN(Textures textures, Textures::open(reader_->textures(), workPath_, threads_, progress_));
+    textures_.emplace(std::move(textures));
+    result_.textures = {textures_->count() - textures_->leftOut().size(), textures_->leftOut()};
+    FARCELL_ASSIGN(Partition partition, partitionMesh(*reader_, settings_, workPath_, threads_, progress_));
+    partition_.emplace(std::move(partition));
+    tree_ = cellTreeOf(partition_->leaves, partition_->triangles);
+    result_.seconds.partition = partition_->splitSeconds;
+    result_.seconds.read = secondsSince(start) - partition_->splitSeconds;
+    describe(result_.directory);
+    reader_.reset();
+    ::malloc_trim(0);  // vertices and chunks: jobs have the memory now
+    return {};
+  }
+
+  void describe(Directory& directory) const {
+    const MeshInfo& info = reader_->info();
+    directory.sourceName = meshes_[0].filename().string();
+    directory.model = {partition_->grid, partition_->bounds, settings_, info.hasNormals, info.hasColours};
+    directory.report.inputTriangles = partition_->counts.accepted;
+    directory.report.inputVertices = info.vertices;
+    directory.report.skipped = partition_->counts.skipped;
+    directory.cells = tree_.cells;
+  }
+
+  Result<> work() {
+    const Directory& directory = result_.directory;
+    FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(settings_.views));
+    const auto views = static_cast<uint32_t>(settings_.views);
+    const auto imageSize = static_cast<uint32_t>(settings_.imageSize);
+    FARCELL_ASSIGN(store_, CellStore::open(workPath_, crew_.rank(), {views, imageSize, UINT64_MAX}));
+    const auto start = std::chrono::steady_clock::now();
+    MemoryGate gate(jobMemory());
+    WorkClock clock;
+    const std::function<bool(uint32_t, int)> wanted = [](uint32_t, int) { return true; };
+    const BuildContext context{directory.model, tree_, *partition_, viewpoints, wanted, textures_->count() > 0, *store_,
+                               gate, jobMemory() / static_cast<uint64_t>(threads_), clock};
+    const Samplers samplers = samplersOf(*textures_, threads_);
+    Jobs jobs(context, samplers, threads_, crew_, progress_);
+    FARCELL_TRY(jobs.meshes());
+    FARCELL_TRY(jobs.views());
+    shareTime(clock, secondsSince(start));
+    if (leads()) FARCELL_TRY(assemble(context));
+    return {};
+  }
+
+  // What is left of the ceiling beside the program itself and the tables of cells, pages and views.
+  uint64_t jobMemory() const {
+    constexpr uint64_t kProgram = uint64_t{48} << 20;
+    constexpr uint64_t kTablesOfView = 2 * sizeof(ViewFigures);
+    const uint64_t cells = tree_.cells.size();
+    const uint64_t tables = cells * (6 * sizeof(CellRecord) + 8 * sizeof(PageRecord) +
+                                     static_cast<uint64_t>(settings_.views) * kTablesOfView);
+    return options_.memoryBytes > kProgram + tables ? options_.memoryBytes - kProgram - tables : 0;
+  }
+
+  void shareTime(const WorkClock& clock, double wall) {
+    const double work = std::max(static_cast<double>(clock.meshNs + clock.bakeNs + clock.encodeNs), 1.0);
+    result_.seconds.lod = wall * static_cast<double>(clock.meshNs) / work;
+    result_.seconds.bake = wall * static_cast<double>(clock.bakeNs) / work;
+    result_.seconds.encode = wall * static_cast<double>(clock.encodeNs) / work;
+  }
+
+  Result<> assemble(const BuildContext& context) {
+    Directory& directory = result_.directory;
+    const BatchFigures totals = store_->totals();
+    directory.report.viewsBaked = totals.baked;
+    const auto leftOut = [&](const char* reason, uint64_t views) {
+      if (views > 0) directory.report.viewsLeftOut[reason] += views;
+    };
+    const UnbakedViews unbaked = unbakedViews(context);
+    leftOut("empty", totals.empty);
+    leftOut("cheaperAsTriangles", unbaked.cheaperAsTriangles);
+    leftOut("notVisitable", unbaked.notVisitable);
+    const auto kept = [](uint32_t, uint32_t) { return true; };
+    FARCELL_ASSIGN(result_.packBytes, assemblePack(context, pack_, kept, directory, progress_));
+    progress_.end();
+    return {};
+  }
+
+  const std::span<const std::filesystem::path> meshes_;
+  const std::filesystem::path& pack_;
+  const BuildOptions& options_;
+  const int threads_;
+  Alone alone_;
+  Crew& crew_;
+  Progress& progress_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+
+  BuildSettings settings_;
+  std::filesystem::path workPath_;
+  std::optional<WorkDirectory> workDirectory_;  // the leader's
+  std::unique_ptr<MeshReader> reader_;          // until the partition is done
+  std::optional<Textures> textures_;
+  std::optional<Partition> partition_;
+  CellTree tree_;
+  std::unique_ptr<CellStore> store_;
+  BuildResult result_;
+};
+
+}  // namespace
+
 Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, const std::filesystem::path& pack,
                               const BuildOptions& options, Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  FARCELL_TRY(checkSettings(options.settings));
-  const int threads = threadCount(options.threads);
-  const std::filesystem::path beside = pack.has_parent_path() ? pack.parent_path() : std::filesystem::path(".");
-  FARCELL_ASSIGN(PackWriter writer, PackWriter::create(pack));
-  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> reader, openMeshes(meshes));
-  BuildSettings settings = options.settings;
-  if (options.upOfModel) settings.up = reader->info().up;
-  if (options.unitOfModel) settings.metresPerUnit = reader->info().metresPerUnit;
-
-  const std::filesystem::path& scratch = options.scratchDirectory.empty() ? beside : options.scratchDirectory;
-
-  BuildResult result;
-  Directory& directory = result.directory;
-  directory.sourceName = meshes[0].filename().string();
-  FARCELL_ASSIGN(directory.sourceHash, sourceHash(*reader));
-  FARCELL_ASSIGN(const Textures textures, Textures::open(reader->textures(), scratch, threads, progress));
-  result.textures = {textures.count() - textures.leftOut().size(), textures.leftOut()};
-  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, settings, scratch, threads, progress));
-  CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
-  directory.model = {partition.grid, partition.bounds, settings, reader->info().hasNormals, reader->info().hasColours};
-  directory.report.inputTriangles = partition.counts.accepted;
-  directory.report.inputVertices = reader->info().vertices;
-  directory.report.skipped = partition.counts.skipped;
-  directory.cells = tree.cells;
-  result.seconds.partition = partition.splitSeconds;
-  result.seconds.read = secondsSince(start) - partition.splitSeconds;
-  FARCELL_TRY(bakeCells(tree, partition, textures, threads, writer, directory, result.seconds, progress));
-  progress.end();
-  FARCELL_ASSIGN(result.packBytes, writer.finish(directory));
-  result.seconds.total = secondsSince(start);
-  return result;
+  return Build(meshes, pack, options, progress).run();
 }
 
 }  // namespace farcell

@@ -1,8 +1,10 @@
 // From mesh files to a pack file.
 //
-// The life of a build: openMeshes -> Textures::open -> partitionMesh (leaves in scratch) -> cellTreeOf (every cell up
-// to the root) -> bakeCell for each cell, on all threads, in file order -> PackWriter, in the same order whatever
-// finishes first. Same input and settings, same bytes, at any thread count.
+// The life of a build: WorkDirectory::open -> openMeshes -> Textures::open -> partitionMesh (leaves on disk) ->
+// cellTreeOf (every cell up to the root) -> jobs on all threads (mesh_job.h, bake_job.h), each of which stores what it
+// has finished (cell_store.h) -> what is worth its bytes is chosen -> assemblePack. Everything up to there lies in the
+// work directory: a build that was killed goes on from it. Same input and settings, same bytes, for any number of
+// threads and processes, any memory, and however often it was interrupted.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +14,24 @@
 #include "cache/base/progress.h"
 #include "cache/base/result.h"
 #include "cache/pack/directory.h"
+#include "preprocess/build/crew.h"
 
 namespace farcell {
+
+inline constexpr uint64_t kDefaultMemoryBytes = uint64_t{2} << 30;
+inline constexpr uint64_t kMinMemoryBytes = uint64_t{192} << 20;
 
 struct BuildOptions {
   BuildSettings settings;
   bool upOfModel = false;                  // settings.up is as the files say (MeshInfo) instead
   bool unitOfModel = false;                // settings.metresPerUnit likewise
   int threads = 0;                         // 0: all
-  std::filesystem::path scratchDirectory;  // empty: where the pack goes
+  uint64_t memoryBytes = kDefaultMemoryBytes;  // of this process; never passed
+  std::filesystem::path workParent;  // where the work directory lies; empty: where the pack goes
+  Crew* crew = nullptr;              // null: this process alone
 };
 
-// Wall seconds; bake and encode overlap, and share the wall time of their stage by the work of each.
+// Wall seconds; lod, bake and encode overlap, and share the wall time of their stage by the work of each.
 struct StageSeconds {
   double read = 0, partition = 0, lod = 0, bake = 0, encode = 0, total = 0;
 };
@@ -35,13 +43,15 @@ struct TextureReport {
 };
 
 struct BuildResult {
+  bool resumed = false;  // work that an earlier build had left was used
   Directory directory;
   uint64_t packBytes = 0;
   StageSeconds seconds;
   TextureReport textures;
 };
 
-// Several meshes are one model; the pack's sourceName is the first one's.
+// Several meshes are one model; the pack's sourceName is the first one's. With a crew all processes call it alike, and
+// the one that leads writes the pack.
 Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, const std::filesystem::path& pack,
                               const BuildOptions& options, Progress& progress);
 

@@ -1,6 +1,7 @@
 #include "preprocess/build/cell_store.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "cache/base/check.h"
 #include "cache/pack/bytes.h"
@@ -18,8 +19,9 @@ uint32_t storedBytes(const CodedMesh& mesh) {
 
 }  // namespace
 
-Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& workDirectory, uint32_t writer) {
-  std::unique_ptr<CellStore> store(new CellStore);
+Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& workDirectory, uint32_t writer,
+                                                   const ViewLimits& limits) {
+  std::unique_ptr<CellStore> store(new CellStore(limits));
   CellStore* const raw = store.get();
   FARCELL_ASSIGN(Journal journal,
                  Journal::open(workDirectory, writer,
@@ -44,7 +46,7 @@ Result<> CellStore::add(uint32_t cell, const CodedMesh& mesh) {
 }
 
 Result<> CellStore::add(const ViewBatch& batch, const BatchFigures& figures, std::span<const EncodedView> views) {
-  ByteWriter head, body;
+  ByteWriter head;
   head.u64(figures.baked);
   head.u64(figures.empty);
   head.u64(figures.rawBytes);
@@ -52,9 +54,8 @@ Result<> CellStore::add(const ViewBatch& batch, const BatchFigures& figures, std
     head.u32(view.view);
     head.u32(static_cast<uint32_t>(view.stream.size()));
     head.u32(view.width * view.height);
-    writeEncodedView(body, view);
   }
-  return journal_->add({static_cast<uint32_t>(Kind::views), idOf(batch)}, head.bytes, body.bytes);
+  return journal_->add({static_cast<uint32_t>(Kind::views), idOf(batch)}, head.bytes, viewPageOf(views).bytes);
 }
 
 // A head of the wrong size is not ours and says nothing: its checksum was right, so no crash made it.
@@ -130,11 +131,8 @@ Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {
   std::vector<EncodedView> views;
   for (const JournalPlace& place : places) {
     FARCELL_ASSIGN(const std::vector<std::byte> body, journal_->read(place));
-    ByteReader in(body);
-    while (in.remaining() > 0) {
-      FARCELL_ASSIGN(EncodedView view, readEncodedView(in));
-      views.push_back(std::move(view));
-    }
+    FARCELL_ASSIGN(std::vector<EncodedView> batch, viewsOfPage(body, limits_));
+    std::move(batch.begin(), batch.end(), std::back_inserter(views));
   }
   std::sort(views.begin(), views.end(), [](const EncodedView& a, const EncodedView& b) { return a.view < b.view; });
   return views;

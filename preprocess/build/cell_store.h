@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "cache/pack/pages.h"
+#include "cache/pack/encoded_view.h"
 #include "preprocess/build/journal.h"
 
 namespace farcell {
@@ -54,10 +54,11 @@ struct ViewFigures {
 
 class CellStore {
  public:
-  // `writer`: the number of this process.
-  static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer);
+  // `writer`: the number of this process. `limits`: of the views that may be found.
+  static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer,
+                                                 const ViewLimits& limits);
 
-  // Any thread.
+  // Any thread. Views by rising number, none of them empty.
   Result<> add(uint32_t cell, const CodedMesh& mesh);
   Result<> add(const ViewBatch& batch, const BatchFigures& figures, std::span<const EncodedView> views);
   bool hasMesh(uint32_t cell) const;
@@ -80,10 +81,11 @@ class CellStore {
     JournalPlace place;
   };
 
-  CellStore() = default;
+  explicit CellStore(const ViewLimits& limits) : limits_(limits) {}
   void found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place);
   void foundViews(uint32_t cell, std::span<const std::byte> head);
 
+  const ViewLimits limits_;
   mutable std::mutex mutex_;
   // Guarded by mutex_ while something is added:
   std::map<uint32_t, StoredMesh> meshes_;

@@ -60,13 +60,13 @@ struct Journal::Impl {
     uint64_t scanned = 0;  // bytes known to be whole records
   };
 
-  std::filesystem::path pathOf(uint32_t writer) const { return directory / fmt::format("cells.{}.log", writer); }
+  std::filesystem::path pathOf(size_t number) const { return directory / fmt::format("cells.{}.log", number); }
 
   // Opens the files there are, up to the first that is missing; the own one is made.
   Result<> openFiles() {
     while (files.size() < kMaxWriters &&
-           (files.size() <= writer || std::filesystem::exists(pathOf(static_cast<uint32_t>(files.size()))))) {
-      FARCELL_ASSIGN(GrowingFile file, GrowingFile::open(pathOf(static_cast<uint32_t>(files.size()))));
+           (files.size() <= writer || std::filesystem::exists(pathOf(files.size())))) {
+      FARCELL_ASSIGN(GrowingFile file, GrowingFile::open(pathOf(files.size())));
       files.push_back(std::make_unique<File>(File{std::move(file), 0}));
     }
     return {};

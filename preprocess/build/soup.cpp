@@ -154,7 +154,8 @@ std::vector<uint32_t> SoupSource::leavesInside(uint32_t cell) const {
   return found;
 }
 
-Result<> SoupSource::append(uint32_t cell, uint32_t leafCell, CellSoup& soup) const {
+Result<> SoupSource::append(uint32_t cell, uint32_t leafCell, CellSoup& soup,
+                            const std::function<Result<>()>& appended) const {
   const LocalFrame local(model_.grid, tree_.cells[cell].key);
   const bool withNormals = model_.hasNormals;
   const auto put = [&](const GridTriangleSpan& portion) -> Result<> {
@@ -164,7 +165,7 @@ Result<> SoupSource::append(uint32_t cell, uint32_t leafCell, CellSoup& soup) co
       if (place < 0) continue;
       (place == 0 ? appendCut : appendWhole)(triangle, portion.texture(i), local, withNormals, soup);
     }
-    return {};
+    return appended();
   };
   return partition_.triangles.forEachPortion(partition_.leaves[tree_.leafOf[leafCell]].list, kPortion, put);
 }

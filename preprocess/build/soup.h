@@ -17,8 +17,9 @@ class SoupSource {
 
   // Cells (indices of leaves in the tree) in order of the tree.
   std::vector<uint32_t> leavesInside(uint32_t cell) const;
-  // Appends the part of `leafCell` that lies in the grown cube of `cell`.
-  Result<> append(uint32_t cell, uint32_t leafCell, CellSoup& soup) const;
+  // Appends the part of `leafCell` that lies in the grown cube of `cell`, and calls `appended` after each portion of a
+  // few thousand triangles: it may use up and clear the soup.
+  Result<> append(uint32_t cell, uint32_t leafCell, CellSoup& soup, const std::function<Result<>()>& appended) const;
 
  private:
   const Model& model_;

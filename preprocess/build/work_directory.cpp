@@ -75,6 +75,15 @@ Result<bool> WorkDirectory::belongsTo(const std::string& identity) const {
   return false;
 }
 
+bool WorkDirectory::holdsWork() const {
+  std::error_code code;
+  for (fs::directory_iterator entry(path_, code), end; !code && entry != end; entry.increment(code)) {
+    const fs::path name = entry->path().filename();
+    if (name != kLockName && name != kIdentityName && entry->file_size(code) > 0) return true;
+  }
+  return false;
+}
+
 Result<> WorkDirectory::remove() {
   std::error_code code;
   // The identity goes first: what a crash leaves of the rest belongs to nothing.

@@ -29,6 +29,8 @@ class WorkDirectory {
   const std::filesystem::path& path() const { return path_; }
   // Whether what is there belongs to this identity; if not, it is emptied and from now on does.
   Result<bool> belongsTo(const std::string& identity) const;
+  // Anything that an interrupted build could go on from.
+  bool holdsWork() const;
   // Removes the directory and all in it.
   Result<> remove();
 

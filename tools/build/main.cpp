@@ -60,7 +60,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_option(
-         "--work-dir", arguments.options.scratchDirectory,
+         "--work-dir", arguments.options.workParent,
          "directory for scratch files, about 200 bytes a triangle, 300 in a textured model, and 6 a pixel of its "
          "textures; default: where the pack goes")
       ->type_name("DIR");

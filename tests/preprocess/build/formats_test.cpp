@@ -86,7 +86,7 @@ Built build(const TempDirectory& directory, const Format& format, const IndexedM
 
 bool same(const CellRecord& a, const CellRecord& b) {
   return a.key == b.key && a.parent == b.parent && a.firstChild == b.firstChild && a.childCount == b.childCount &&
-         a.content == b.content && a.triangles == b.triangles && a.geometryPage == b.geometryPage &&
+         a.content == b.content && a.triangles == b.triangles && a.firstGeometryPage == b.firstGeometryPage &&
          a.firstViewPage == b.firstViewPage && a.viewPageCount == b.viewPageCount;
 }
 

@@ -147,8 +147,8 @@ TEST_F(TexturedBuild, LeafPagesHoldTheImageAsVertexColours) {
   const Directory& directory = pack.directory();
   EXPECT_TRUE(directory.model.hasColours);
   for (const CellRecord& cell : directory.cells) {
-    if (cell.geometryPage == kNone) continue;
-    const GeometryPage page = pack.readGeometry(cell.geometryPage).value();
+    if (cell.geometryPageCount == 0) continue;
+    const GeometryPage page = pack.readGeometry(cell.firstGeometryPage).value();
     ASSERT_EQ(page.colours.size(), page.positions.size());
     EXPECT_LT(page.positions.size(), page.indices.size() / 4) << "vertices are shared";
     const GridPoint cellMin = cellBox(directory.model.grid, cell.key).min;
@@ -181,8 +181,8 @@ TEST_F(TexturedBuild, WithoutItsImageAModelKeepsItsColoursAndTheReportSaysSo) {
   for (const char* name : {"missing.far", "broken.far"}) {
     const PackFile pack = open(name);
     for (const CellRecord& cell : pack.directory().cells) {
-      if (cell.geometryPage == kNone) continue;
-      const GeometryPage page = pack.readGeometry(cell.geometryPage).value();
+      if (cell.geometryPageCount == 0) continue;
+      const GeometryPage page = pack.readGeometry(cell.firstGeometryPage).value();
       for (const uint32_t colour : page.colours) EXPECT_EQ(colour, 0x0033ffu);
     }
   }
@@ -197,8 +197,8 @@ TEST_F(TexturedBuild, SpotIsACowWithADarkAndALightSide) {
   const PackFile pack = open("spot.far");
   size_t dark = 0, light = 0;
   for (const CellRecord& cell : pack.directory().cells) {
-    if (cell.geometryPage == kNone) continue;
-    const GeometryPage page = pack.readGeometry(cell.geometryPage).value();
+    if (cell.geometryPageCount == 0) continue;
+    const GeometryPage page = pack.readGeometry(cell.firstGeometryPage).value();
     for (const uint32_t colour : page.colours) {
       dark += (colour >> 8 & 255) < 90 ? 1 : 0;
       light += (colour >> 8 & 255) > 220 ? 1 : 0;

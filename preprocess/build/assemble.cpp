@@ -1,0 +1,77 @@
+#include "preprocess/build/assemble.h"
+
+#include "cache/base/interrupt.h"
+#include "cache/pack/pack_file.h"
+
+namespace farcell {
+namespace {
+
+class Assembly {
+ public:
+  Assembly(const BuildContext& context, PackWriter& writer, Directory& directory)
+      : context_(context), writer_(writer), directory_(directory) {}
+
+  Result<> mesh(uint32_t cell) {
+    if (!context_.store.hasMesh(cell)) return {};
+    CellRecord& record = directory_.cells[cell];
+    FARCELL_ASSIGN(const CodedMesh mesh, context_.store.mesh(cell));
+    record.meshTriangles = mesh.triangles;
+    record.geometricError = mesh.errorSteps * directory_.model.grid.step();
+    for (const CodedPart& part : mesh.parts) {
+      FARCELL_ASSIGN(const uint32_t page, writer_.add(PageKind::geometry, cell, record.geometryPageCount,
+                                                      part.decodedBytes, part.bytes));
+      if (record.geometryPageCount++ == 0) record.firstGeometryPage = page;
+    }
+    return {};
+  }
+
+  Result<> views(uint32_t cell, const std::function<bool(uint32_t cell, uint32_t view)>& kept) {
+    FARCELL_ASSIGN(std::vector<EncodedView> views, context_.store.views(cell));
+    std::vector<std::vector<EncodedView>> groups(static_cast<size_t>(context_.viewpoints.groupCount()));
+    for (EncodedView& view : views)
+      if (kept(cell, view.view))
+        groups[static_cast<size_t>(context_.viewpoints.group(static_cast<int>(view.view)))].push_back(std::move(view));
+    for (uint32_t group = 0; group < groups.size(); ++group)
+      if (!groups[group].empty()) FARCELL_TRY(viewPage(cell, group, groups[group]));
+    return {};
+  }
+
+ private:
+  Result<> viewPage(uint32_t cell, uint32_t group, std::span<const EncodedView> views) {
+    const EncodedViewPage page = viewPageOf(views);
+    FARCELL_ASSIGN(const uint32_t index,
+                   writer_.add(PageKind::views, cell, group, decodedSizeBytes(views), page.bytes));
+    CellRecord& record = directory_.cells[cell];
+    if (record.viewPageCount++ == 0) record.firstViewPage = index;
+    BuildReport& report = directory_.report;
+    report.viewsKept += views.size();
+    for (const EncodedView& view : views) report.impostorRawBytes += view.decodedBytes;
+    if (page.duplicates == 0) return {};
+    report.viewsLeftOut["duplicate"] += page.duplicates;
+    report.bytesLeftOut["duplicate"] += page.duplicateBytes;
+    return {};
+  }
+
+  const BuildContext& context_;
+  PackWriter& writer_;
+  Directory& directory_;
+};
+
+}  // namespace
+
+Result<uint64_t> assemblePack(const BuildContext& context, const std::filesystem::path& pack,
+                              const std::function<bool(uint32_t cell, uint32_t view)>& kept, Directory& directory,
+                              Progress& progress) {
+  FARCELL_ASSIGN(PackWriter writer, PackWriter::create(pack));
+  Assembly assembly(context, writer, directory);
+  progress.begin("write", directory.cells.size(), "cells");
+  for (uint32_t cell = 0; cell < directory.cells.size(); ++cell) {
+    FARCELL_TRY(checkInterrupt());
+    FARCELL_TRY(assembly.mesh(cell));
+    FARCELL_TRY(assembly.views(cell, kept));
+    progress.advance();
+  }
+  return writer.finish(directory);
+}
+
+}  // namespace farcell

@@ -1,0 +1,32 @@
+// Jobs that bake the views of a cell and code them.
+#pragma once
+
+#include <vector>
+
+#include "preprocess/build/build_context.h"
+
+namespace farcell {
+
+// A leaf of fewer triangles gets no views: they would cost more bytes than they can save time. No more than a few: a
+// single triangle in a frame makes the renderer multisample all of it.
+inline constexpr uint64_t kTrianglesCheaperThanView = 4;
+
+// Up to here a cell's triangles are gathered once and every view is baked from memory; beyond, leaves are streamed
+// past all views at once. Both give the same views.
+inline constexpr uint64_t kGatherTriangles = 500'000;
+
+// All batches of a model, those of the most work first. A batch is a few seconds of work at most, unless a single pair
+// of views is more: that is what a crash may lose. Depends on the tree and the viewpoints alone. Without the cells that
+// are cheaper as triangles, and without views that are not wanted.
+std::vector<ViewBatch> viewBatches(const BuildContext& context);
+// Views of cells that are cheaper as triangles, and those that are not wanted.
+struct UnbakedViews {
+  uint64_t cheaperAsTriangles = 0, notVisitable = 0;
+};
+UnbakedViews unbakedViews(const BuildContext& context);
+
+// Bakes, codes and stores a batch. textures: those of the mesh, a sampler of this thread; null when it has none.
+Result<> bakeBatch(const BuildContext& context, const ViewBatch& batch, TextureSampler* textures,
+                   uint64_t gatherTriangles = kGatherTriangles);
+
+}  // namespace farcell
