@@ -47,13 +47,15 @@ std::filesystem::path directoryOf(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-Result<> syncDirectory(const std::filesystem::path& directory) {
+// So that the name of `path` is on the disk.
+Result<> syncDirectoryOf(const std::filesystem::path& path) {
+  const std::filesystem::path directory = directoryOf(path);
   const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return ioError(directory, "cannot open directory", errno);
+  if (descriptor < 0) return ioError(path, "cannot open its directory", errno);
   const int status = ::fsync(descriptor);
   const int code = errno;
   ::close(descriptor);
-  if (status != 0) return ioError(directory, "cannot sync directory", code);
+  if (status != 0) return ioError(path, "cannot sync its directory", code);
   return {};
 }
 
@@ -162,7 +164,7 @@ Result<> OutputFile::commit() {
   if (::close(std::exchange(descriptor_, -1)) != 0) return ioError(path_, "cannot close", errno);
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) return ioError(path_, "cannot rename into place", errno);
   temporary_.clear();
-  return syncDirectory(directoryOf(path_));
+  return syncDirectoryOf(path_);
 }
 
 ScratchFile::ScratchFile(int descriptor, std::string directory)

@@ -31,6 +31,10 @@ void write(ByteWriter& out, const BuildSettings& settings) {
   out.u32(static_cast<uint32_t>(settings.up));
   out.u32(settings.bakeNormals ? 1 : 0);
   out.f64(settings.metresPerUnit);
+  out.u32(static_cast<uint32_t>(settings.simplifier));
+  out.u32(static_cast<uint32_t>(settings.budgetRule));
+  out.u64(settings.packBudgetBytes);
+  out.u64(settings.visitableHash);
 }
 
 // Both 0 and 1 are the only values a flag may have: anything else could not be written back.
@@ -48,6 +52,10 @@ BuildSettings readSettings(ByteReader& in, bool& valid) {
   settings.up = static_cast<UpAxis>(in.u32());
   settings.bakeNormals = readFlag(in, valid);
   settings.metresPerUnit = in.f64();
+  settings.simplifier = static_cast<Simplifier>(in.u32());
+  settings.budgetRule = static_cast<BudgetRule>(in.u32());
+  settings.packBudgetBytes = in.u64();
+  settings.visitableHash = in.u64();
   return settings;
 }
 

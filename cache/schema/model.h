@@ -13,6 +13,18 @@ namespace farcell {
 
 enum class UpAxis : uint32_t { x = 0, y = 1, z = 2 };
 
+// How the meshes of inner cells are made.
+enum class Simplifier : uint32_t {
+  collapse = 0,  // ours
+  openmesh = 1,  // OpenMesh's decimater: slower
+};
+
+// What a pack's budget is spent on first.
+enum class BudgetRule : uint32_t {
+  worth = 0,      // cells whose views are most worth a byte
+  triangles = 1,  // cells of most triangles: the rule of the 2010 paper
+};
+
 // Everything that decides a pack's content, besides the input itself.
 struct BuildSettings {
   int views = 42;             // size of the viewpoint set, see viewpoints.h
@@ -24,6 +36,10 @@ struct BuildSettings {
   UpAxis up = UpAxis::z;
   double metresPerUnit = 1;
   bool bakeNormals = false;  // views keep a prefiltered normal beside the lit colour
+  Simplifier simplifier = Simplifier::collapse;
+  BudgetRule budgetRule = BudgetRule::worth;
+  uint64_t packBudgetBytes = 0;  // 0: no limit
+  uint64_t visitableHash = 0;    // of where visitors may be, XXH3-64 of the option's text and file; 0: everywhere
   bool operator==(const BuildSettings&) const = default;
 };
 

@@ -1,5 +1,6 @@
 #include "preprocess/build/assemble.h"
 
+#include "cache/base/check.h"
 #include "cache/base/interrupt.h"
 #include "cache/pack/pack_file.h"
 
@@ -8,8 +9,9 @@ namespace {
 
 class Assembly {
  public:
-  Assembly(const BuildContext& context, PackWriter& writer, Directory& directory)
-      : context_(context), writer_(writer), directory_(directory) {}
+  Assembly(const BuildContext& context, std::span<const ViewCost> costs, std::span<const ViewFate> fates,
+           PackWriter& writer, Directory& directory)
+      : context_(context), costs_(costs), fates_(fates), writer_(writer), directory_(directory) {}
 
   Result<> mesh(uint32_t cell) {
     if (!context_.store.hasMesh(cell)) return {};
@@ -25,12 +27,19 @@ class Assembly {
     return {};
   }
 
-  Result<> views(uint32_t cell, const std::function<bool(uint32_t cell, uint32_t view)>& kept) {
-    FARCELL_ASSIGN(std::vector<EncodedView> views, context_.store.views(cell));
+  // Of cells in rising order, each once.
+  Result<> views(uint32_t cell) {
+    FARCELL_ASSIGN(std::vector<EncodedView> stored, context_.store.views(cell));
     std::vector<std::vector<EncodedView>> groups(static_cast<size_t>(context_.viewpoints.groupCount()));
-    for (EncodedView& view : views)
-      if (kept(cell, view.view))
-        groups[static_cast<size_t>(context_.viewpoints.group(static_cast<int>(view.view)))].push_back(std::move(view));
+    auto next = stored.begin();
+    for (; cursor_ < costs_.size() && costs_[cursor_].cell == cell; ++cursor_) {
+      const ViewCost& cost = costs_[cursor_];
+      if (cost.texels == 0) continue;
+      FARCELL_CHECK(next != stored.end() && next->view == cost.view);
+      if (fates_[cursor_] == ViewFate::kept)
+        groups[static_cast<size_t>(context_.viewpoints.group(static_cast<int>(cost.view)))].push_back(std::move(*next));
+      ++next;
+    }
     for (uint32_t group = 0; group < groups.size(); ++group)
       if (!groups[group].empty()) FARCELL_TRY(viewPage(cell, group, groups[group]));
     return {};
@@ -44,7 +53,7 @@ class Assembly {
     CellRecord& record = directory_.cells[cell];
     if (record.viewPageCount++ == 0) record.firstViewPage = index;
     BuildReport& report = directory_.report;
-    report.viewsKept += views.size();
+    report.viewsKept += views.size() - page.duplicates;
     for (const EncodedView& view : views) report.impostorRawBytes += view.decodedBytes;
     if (page.duplicates == 0) return {};
     report.viewsLeftOut["duplicate"] += page.duplicates;
@@ -53,22 +62,25 @@ class Assembly {
   }
 
   const BuildContext& context_;
+  const std::span<const ViewCost> costs_;
+  const std::span<const ViewFate> fates_;
   PackWriter& writer_;
   Directory& directory_;
+  size_t cursor_ = 0;  // in costs_
 };
 
 }  // namespace
 
 Result<uint64_t> assemblePack(const BuildContext& context, const std::filesystem::path& pack,
-                              const std::function<bool(uint32_t cell, uint32_t view)>& kept, Directory& directory,
+                              std::span<const ViewCost> views, std::span<const ViewFate> fates, Directory& directory,
                               Progress& progress) {
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(pack));
-  Assembly assembly(context, writer, directory);
+  Assembly assembly(context, views, fates, writer, directory);
   progress.begin("write", directory.cells.size(), "cells");
   for (uint32_t cell = 0; cell < directory.cells.size(); ++cell) {
     FARCELL_TRY(checkInterrupt());
     FARCELL_TRY(assembly.mesh(cell));
-    FARCELL_TRY(assembly.views(cell, kept));
+    FARCELL_TRY(assembly.views(cell));
     progress.advance();
   }
   return writer.finish(directory);

@@ -20,10 +20,6 @@ std::vector<int> pairLeaders(const Viewpoints& viewpoints) {
   return leaders;
 }
 
-bool cheaperAsTriangles(const CellRecord& cell) {
-  return cell.childCount == 0 && cell.triangles < kTrianglesCheaperThanView;
-}
-
 uint64_t bytesOfTriangle(const BuildContext& context) {
   return 4 * (12 + (context.model.hasNormals ? 3 : 0) + (context.hasTextures ? 7 : 0));
 }
@@ -123,20 +119,18 @@ class Batch {
 
   void encode(const BakedView& baked, int view) {
     if (!context_.wanted(batch_.cell, view)) return;
-    ++figures_.baked;
     const ViewImage image = quantisedView(baked, static_cast<uint32_t>(view), settings_.imageSize);
-    if (image.width == 0) {
-      ++figures_.empty;
-      return;
-    }
-    figures_.rawBytes += image.rgba.size() + image.depth.size() + image.normal.size();
+    ViewCost& cost = baked_.emplace_back(ViewCost{batch_.cell, static_cast<uint32_t>(view)});
+    if (image.width == 0) return;
     views_.push_back(encodeView(image));
+    cost.bytes = static_cast<uint32_t>(views_.back().stream.size());
+    cost.texels = image.width * image.height;
   }
 
   Result<> store() {
     if (textures_ != nullptr && textures_->failure()) return tl::unexpected<Error>(*textures_->failure());
     std::sort(views_.begin(), views_.end(), [](const auto& a, const auto& b) { return a.view < b.view; });
-    return context_.store.add(batch_, figures_, views_);
+    return context_.store.add(batch_, baked_, views_);
   }
 
   const BuildContext& context_;
@@ -147,10 +141,14 @@ class Batch {
   BakeSettings settings_;
   std::vector<int> pairs_;
   std::vector<EncodedView> views_;
-  BatchFigures figures_;
+  std::vector<ViewCost> baked_;
 };
 
 }  // namespace
+
+bool cheaperAsTriangles(const CellRecord& cell) {
+  return cell.childCount == 0 && cell.triangles < kTrianglesCheaperThanView;
+}
 
 std::vector<ViewBatch> viewBatches(const BuildContext& context) {
   const auto pairs = static_cast<uint32_t>(pairLeaders(context.viewpoints).size());
@@ -166,19 +164,6 @@ std::vector<ViewBatch> viewBatches(const BuildContext& context) {
   std::stable_sort(batches.begin(), batches.end(),
                    [&](const ViewBatch& a, const ViewBatch& b) { return work(a) > work(b); });
   return batches;
-}
-
-UnbakedViews unbakedViews(const BuildContext& context) {
-  UnbakedViews unbaked;
-  for (uint32_t cell = 0; cell < context.tree.cells.size(); ++cell) {
-    if (cheaperAsTriangles(context.tree.cells[cell])) {
-      unbaked.cheaperAsTriangles += static_cast<uint64_t>(context.viewpoints.count());
-      continue;
-    }
-    for (int view = 0; view < context.viewpoints.count(); ++view)
-      if (!context.wanted(cell, view)) ++unbaked.notVisitable;
-  }
-  return unbaked;
 }
 
 Result<> bakeBatch(const BuildContext& context, const ViewBatch& batch, TextureSampler* textures,

@@ -19,11 +19,8 @@ inline constexpr uint64_t kGatherTriangles = 500'000;
 // of views is more: that is what a crash may lose. Depends on the tree and the viewpoints alone. Without the cells that
 // are cheaper as triangles, and without views that are not wanted.
 std::vector<ViewBatch> viewBatches(const BuildContext& context);
-// Views of cells that are cheaper as triangles, and those that are not wanted.
-struct UnbakedViews {
-  uint64_t cheaperAsTriangles = 0, notVisitable = 0;
-};
-UnbakedViews unbakedViews(const BuildContext& context);
+// A leaf of so few triangles that it gets no views.
+bool cheaperAsTriangles(const CellRecord& cell);
 
 // Bakes, codes and stores a batch. textures: those of the mesh, a sampler of this thread; null when it has none.
 Result<> bakeBatch(const BuildContext& context, const ViewBatch& batch, TextureSampler* textures,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cache/base/hash.h"
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
 #include "cache/pack/directory_codec.h"
@@ -133,8 +134,11 @@ Result<std::string> fileStamp(const std::filesystem::path& path) {
 
 // Everything that decides what jobs make; the identity of the work directory.
 Result<std::string> identityOf(const MeshReader& mesh, const BuildSettings& settings) {
-  std::string text = fmt::format("farcell {} pack {} settings {:016x}\n", FARCELL_VERSION, kPackVersion,
-                                 hashSettings(settings));
+  BuildSettings ofJobs = settings;
+  ofJobs.packBudgetBytes = 0;  // the pack is put together anew each time
+  ofJobs.budgetRule = BudgetRule::worth;
+  std::string text =
+      fmt::format("farcell {} pack {} settings {:016x}\n", FARCELL_VERSION, kPackVersion, hashSettings(ofJobs));
   for (const std::filesystem::path& file : mesh.files()) {
     FARCELL_ASSIGN(const std::string stamp, fileStamp(file));
     text += fmt::format("{}\n", stamp);
@@ -190,6 +194,7 @@ class Build {
     settings_ = options_.settings;
     if (options_.upOfModel) settings_.up = reader_->info().up;
     if (options_.unitOfModel) settings_.metresPerUnit = reader_->info().metresPerUnit;
+    FARCELL_TRY(readVisitable());
     workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
     if (!leads()) return {};
     FARCELL_ASSIGN(WorkDirectory directory, WorkDirectory::open(options_.workParent, pack_));
@@ -197,6 +202,17 @@ class Build {
     FARCELL_ASSIGN(const std::string identity, identityOf(*reader_, settings_));
     FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identity));
     FARCELL_ASSIGN(result_.directory.sourceHash, sourceHash(*reader_));
+    return {};
+  }
+
+  Result<> readVisitable() {
+    FARCELL_ASSIGN(region_, readRegion(options_.visitable, settings_.metresPerUnit));
+    if (region_.kind == Region::Kind::everywhere) return {};
+    std::string text = options_.visitable;
+    if (region_.kind == Region::Kind::boxes) {
+      FARCELL_ASSIGN(text, readTextFile(options_.visitable, kMaxRegionFileBytes));
+    }
+    settings_.visitableHash = hashBytes(std::as_bytes(std::span(text)));
     return {};
   }
 
@@ -242,8 +258,8 @@ class Build {
     const auto start = std::chrono::steady_clock::now();
     MemoryGate gate(jobMemory());
     WorkClock clock;
-    const std::function<bool(uint32_t, int)> wanted = [](uint32_t, int) { return true; };
-    const BuildContext context{directory.model, tree_, *partition_, viewpoints, wanted, textures_->count() > 0, *store_,
+    const std::vector<ViewMask> seen = seenViews(viewpoints);
+    const BuildContext context{directory.model, tree_, *partition_, viewpoints, seen, textures_->count() > 0, *store_,
                                gate, jobMemory() / static_cast<uint64_t>(threads_), clock};
     const Samplers samplers = samplersOf(*textures_, threads_);
     Jobs jobs(context, samplers, threads_, crew_, progress_);
@@ -254,10 +270,19 @@ class Build {
     return {};
   }
 
+  // Empty when visitors may be anywhere.
+  std::vector<ViewMask> seenViews(const Viewpoints& viewpoints) const {
+    if (region_.kind == Region::Kind::everywhere) return {};
+    const Visitable visitable(region_, result_.directory.model, tree_.cells, viewpoints);
+    std::vector<ViewMask> seen(tree_.cells.size());
+    parallelFor(seen.size(), threads_, [&](size_t cell, int) { seen[cell] = visitable.seen(tree_.cells[cell]); });
+    return seen;
+  }
+
   // What is left of the ceiling beside the program itself and the tables of cells, pages and views.
   uint64_t jobMemory() const {
     constexpr uint64_t kProgram = uint64_t{48} << 20;
-    constexpr uint64_t kTablesOfView = 2 * sizeof(ViewFigures);
+    constexpr uint64_t kTablesOfView = 2 * sizeof(ViewCost);
     const uint64_t cells = tree_.cells.size();
     const uint64_t tables = cells * (6 * sizeof(CellRecord) + 8 * sizeof(PageRecord) +
                                      static_cast<uint64_t>(settings_.views) * kTablesOfView);
@@ -273,19 +298,37 @@ class Build {
 
   Result<> assemble(const BuildContext& context) {
     Directory& directory = result_.directory;
-    const BatchFigures totals = store_->totals();
-    directory.report.viewsBaked = totals.baked;
-    const auto leftOut = [&](const char* reason, uint64_t views) {
-      if (views > 0) directory.report.viewsLeftOut[reason] += views;
-    };
-    const UnbakedViews unbaked = unbakedViews(context);
-    leftOut("empty", totals.empty);
-    leftOut("cheaperAsTriangles", unbaked.cheaperAsTriangles);
-    leftOut("notVisitable", unbaked.notVisitable);
-    const auto kept = [](uint32_t, uint32_t) { return true; };
-    FARCELL_ASSIGN(result_.packBytes, assemblePack(context, pack_, kept, directory, progress_));
+    std::vector<uint32_t> geometryBytes(tree_.cells.size());
+    for (uint32_t cell = 0; cell < tree_.cells.size(); ++cell)
+      if (store_->hasMesh(cell)) geometryBytes[cell] = store_->meshFigures(cell).bytes;
+    const std::vector<ViewCost> views = store_->viewCosts();
+    ChooseSettings settings;
+    settings.rule = settings_.budgetRule;
+    if (settings_.packBudgetBytes > 0) settings.packBudgetBytes = settings_.packBudgetBytes;
+    FARCELL_ASSIGN(const Choice choice,
+                   chooseViews({context.viewpoints, tree_.cells, geometryBytes, views}, settings));
+    report(choice, views.size(), directory.report);
+    FARCELL_ASSIGN(result_.packBytes, assemblePack(context, pack_, views, choice.views, directory, progress_));
     progress_.end();
     return {};
+  }
+
+  void report(const Choice& choice, uint64_t viewsBaked, BuildReport& report) const {
+    report.viewsBaked = viewsBaked;
+    const auto leftOut = [&](const char* reason, const LeftOutCount& count) {
+      if (count.views == 0) return;
+      report.viewsLeftOut[reason] += count.views;
+      report.bytesLeftOut[reason] += count.bytes;
+    };
+    LeftOutCount triangles;  // never baked
+    for (const CellRecord& cell : tree_.cells)
+      if (cheaperAsTriangles(cell)) triangles.views += static_cast<uint64_t>(settings_.views);
+    leftOut(nameOf(ViewFate::cheaperAsTriangles), triangles);
+    for (size_t fate = 0; fate < kViewFates; ++fate) {
+      LeftOutCount count = choice.counts[fate];
+      if (static_cast<ViewFate>(fate) == ViewFate::notVisitable) count.views -= triangles.views;
+      if (static_cast<ViewFate>(fate) != ViewFate::kept) leftOut(nameOf(static_cast<ViewFate>(fate)), count);
+    }
   }
 
   const std::span<const std::filesystem::path> meshes_;
@@ -304,6 +347,7 @@ class Build {
   std::optional<Textures> textures_;
   std::optional<Partition> partition_;
   CellTree tree_;
+  Region region_;
   std::unique_ptr<CellStore> store_;
   BuildResult result_;
 };

@@ -27,6 +27,7 @@ struct BuildOptions {
   bool unitOfModel = false;                // settings.metresPerUnit likewise
   int threads = 0;                         // 0: all
   uint64_t memoryBytes = kDefaultMemoryBytes;  // of this process; never passed
+  std::string visitable = "everywhere";    // where visitors may be, as readRegion takes it
   std::filesystem::path workParent;  // where the work directory lies; empty: where the pack goes
   Crew* crew = nullptr;              // null: this process alone
 };

@@ -3,12 +3,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <functional>
+#include <vector>
 
 #include "cache/schema/viewpoints.h"
 #include "preprocess/build/cell_store.h"
 #include "preprocess/build/cell_tree.h"
 #include "preprocess/build/memory_gate.h"
+#include "preprocess/choose/visitable.h"
 #include "preprocess/mesh/texture_sampler.h"
 
 namespace farcell {
@@ -38,12 +39,14 @@ struct BuildContext {
   const CellTree& tree;
   const Partition& partition;
   const Viewpoints& viewpoints;
-  const std::function<bool(uint32_t cell, int view)>& wanted;  // views that a visitor may see
+  const std::vector<ViewMask>& seen;  // by cell, the views that a visitor may get; empty: all
   bool hasTextures;
   CellStore& store;
   MemoryGate& gate;
   uint64_t memoryOfThread;  // share of the gate that one thread should stay within, where it has the choice
   WorkClock& clock;
+
+  bool wanted(uint32_t cell, int view) const { return seen.empty() || seen[cell][static_cast<size_t>(view)]; }
 };
 
 }  // namespace farcell

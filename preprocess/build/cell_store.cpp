@@ -45,15 +45,12 @@ Result<> CellStore::add(uint32_t cell, const CodedMesh& mesh) {
   return journal_->add({static_cast<uint32_t>(Kind::mesh), cell}, head.bytes, body.bytes);
 }
 
-Result<> CellStore::add(const ViewBatch& batch, const BatchFigures& figures, std::span<const EncodedView> views) {
+Result<> CellStore::add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views) {
   ByteWriter head;
-  head.u64(figures.baked);
-  head.u64(figures.empty);
-  head.u64(figures.rawBytes);
-  for (const EncodedView& view : views) {
+  for (const ViewCost& view : baked) {
     head.u32(view.view);
-    head.u32(static_cast<uint32_t>(view.stream.size()));
-    head.u32(view.width * view.height);
+    head.u32(view.bytes);
+    head.u32(view.texels);
   }
   return journal_->add({static_cast<uint32_t>(Kind::views), idOf(batch)}, head.bytes, viewPageOf(views).bytes);
 }
@@ -75,15 +72,12 @@ void CellStore::found(const JournalRecord& record, std::span<const std::byte> he
 
 void CellStore::foundViews(uint32_t cell, std::span<const std::byte> head) {
   ByteReader in(head);
-  totals_.baked += in.u64();
-  totals_.empty += in.u64();
-  totals_.rawBytes += in.u64();
   while (in.remaining() > 0 && in.ok()) {
-    ViewFigures view{cell};
-    view.view = in.u32();
-    view.bytes = in.u32();
-    view.texels = in.u32();
-    views_.push_back(view);
+    ViewCost cost{cell};
+    cost.view = in.u32();
+    cost.bytes = in.u32();
+    cost.texels = in.u32();
+    views_.push_back(cost);
   }
 }
 
@@ -138,18 +132,13 @@ Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {
   return views;
 }
 
-std::vector<ViewFigures> CellStore::viewFigures() const {
+std::vector<ViewCost> CellStore::viewCosts() const {
   const std::lock_guard lock(mutex_);
-  std::vector<ViewFigures> views = views_;
-  std::sort(views.begin(), views.end(), [](const ViewFigures& a, const ViewFigures& b) {
+  std::vector<ViewCost> views = views_;
+  std::sort(views.begin(), views.end(), [](const ViewCost& a, const ViewCost& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.view < b.view;
   });
   return views;
-}
-
-BatchFigures CellStore::totals() const {
-  const std::lock_guard lock(mutex_);
-  return totals_;
 }
 
 }  // namespace farcell

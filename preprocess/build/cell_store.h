@@ -10,6 +10,7 @@
 
 #include "cache/pack/encoded_view.h"
 #include "preprocess/build/journal.h"
+#include "preprocess/choose/choose.h"
 
 namespace farcell {
 
@@ -38,29 +39,15 @@ struct ViewBatch {
   uint32_t pairCount = 0;
 };
 
-struct BatchFigures {
-  uint64_t baked = 0;
-  uint64_t empty = 0;
-  uint64_t rawBytes = 0;  // of those that are not, before coding
-};
-
-// A coded view that could be in the pack.
-struct ViewFigures {
-  uint32_t cell = 0;
-  uint32_t view = 0;
-  uint32_t bytes = 0;   // of the stream
-  uint32_t texels = 0;  // of the cropped image
-};
-
 class CellStore {
  public:
   // `writer`: the number of this process. `limits`: of the views that may be found.
   static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer,
                                                  const ViewLimits& limits);
 
-  // Any thread. Views by rising number, none of them empty.
+  // Any thread. baked: what became of each view of the batch; views: those that are not empty, by rising number.
   Result<> add(uint32_t cell, const CodedMesh& mesh);
-  Result<> add(const ViewBatch& batch, const BatchFigures& figures, std::span<const EncodedView> views);
+  Result<> add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views);
   bool hasMesh(uint32_t cell) const;
   bool has(const ViewBatch& batch) const;
   MeshFigures meshFigures(uint32_t cell) const;  // REQUIRES: hasMesh
@@ -70,9 +57,8 @@ class CellStore {
 
   // What other processes have added since.
   Result<> refresh() { return journal_->refresh(); }
-  // By cell, then view. Call it when nothing is added any more.
-  std::vector<ViewFigures> viewFigures() const;
-  BatchFigures totals() const;
+  // All that were baked, by cell, then view. Call it when nothing is added any more.
+  std::vector<ViewCost> viewCosts() const;
 
  private:
   enum class Kind : uint32_t { mesh = 1, views = 2 };
@@ -90,8 +76,7 @@ class CellStore {
   // Guarded by mutex_ while something is added:
   std::map<uint32_t, StoredMesh> meshes_;
   std::map<uint64_t, JournalPlace> batches_;  // by cell, then first pair
-  std::vector<ViewFigures> views_;
-  BatchFigures totals_;
+  std::vector<ViewCost> views_;
   std::unique_ptr<Journal> journal_;  // the last: its sink fills the others
 };
 

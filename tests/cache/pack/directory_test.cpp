@@ -102,6 +102,10 @@ TEST_F(LyingDirectory, IsRefusedForItsSettings) {
        {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     expectRefused(
         "unit", [&](Directory& d) { d.model.settings.metresPerUnit = unit; }, "a unit");
+  expectRefused(
+      "simplifier", [](Directory& d) { d.model.settings.simplifier = static_cast<Simplifier>(2); }, "simplifier");
+  expectRefused(
+      "budget rule", [](Directory& d) { d.model.settings.budgetRule = static_cast<BudgetRule>(2); }, "budget rule");
 }
 
 TEST_F(LyingDirectory, IsRefusedForItsTree) {
@@ -216,7 +220,7 @@ TEST_F(LyingDirectory, IsRefusedForItsPages) {
   expectRefused(
       "group order", [](Directory& d) { std::swap(d.pages[0].group, d.pages[1].group); }, "a rising group");
   expectRefused(
-      "group of geometry", [](Directory& d) { d.pages[2].group = 1; }, "group 0");
+      "group of geometry", [](Directory& d) { d.pages[2].group = 1; }, "by part");
   expectRefused(
       "overlap", [](Directory& d) { d.pages[1].offsetBytes -= kPageAlignment; }, "at offset");
   expectRefused(

@@ -100,7 +100,7 @@ void appendPage(Text& pack, const Bytes& page, std::vector<std::pair<uint64_t, u
   places.emplace_back(offset, hashBytes(std::span(pack.bytes).subspan(offset)));
 }
 
-Bytes settings() { return Text().u32({42, 16, 1, 10, 2, 0xffffffff, 2, 0}).u64({kF64Two}).bytes; }
+Bytes settings() { return Text().u32({42, 16, 1, 10, 2, 0xffffffff, 2, 0}).u64({kF64Two, 0, 0, 0}).bytes; }
 
 Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
                 const std::vector<std::pair<uint64_t, uint64_t>>& places) {

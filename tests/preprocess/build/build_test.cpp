@@ -151,7 +151,7 @@ TEST_F(BuildPack, StreamedLeavesBakeTheSameViewsAsGatheredOnes) {
   const CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   const Model model{partition.grid, partition.bounds, options.settings, false, false};
   const Viewpoints viewpoints = Viewpoints::create(42).value();
-  const std::function<bool(uint32_t, int)> all = [](uint32_t, int) { return true; };
+  const std::vector<ViewMask> all;
   MemoryGate gate(uint64_t{1} << 30);
   WorkClock clock;
   // memoryOfThread: little enough that the leaves pass several times, for a few views each.

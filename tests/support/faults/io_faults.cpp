@@ -54,6 +54,8 @@ bool isRegular(int descriptor) {
 
 // Whether this call is the one.
 bool strikes() { return ++calls == faultAt(); }
+// The same where nothing can be short.
+bool strikesWhole() { return strikes() && !kindIs("short"); }
 
 // -1 and errno, or the end.
 int failure() {
@@ -92,27 +94,27 @@ ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off_t offset) {
 }
 int fsync(int descriptor) {
   static const auto real = next<int (*)(int)>("fsync");
-  return strikes() ? failure() : real(descriptor);
+  return strikesWhole() ? failure() : real(descriptor);
 }
 int fdatasync(int descriptor) {
   static const auto real = next<int (*)(int)>("fdatasync");
-  return strikes() ? failure() : real(descriptor);
+  return strikesWhole() ? failure() : real(descriptor);
 }
 int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");
-  return strikes() ? failure() : real(from, to);
+  return strikesWhole() ? failure() : real(from, to);
 }
 int ftruncate(int descriptor, off_t size) {
   static const auto real = next<int (*)(int, off_t)>("ftruncate");
-  return strikes() ? failure() : real(descriptor, size);
+  return strikesWhole() ? failure() : real(descriptor, size);
 }
 int ftruncate64(int descriptor, off_t size) { return ftruncate(descriptor, size); }
 int unlink(const char* path) {
   static const auto real = next<int (*)(const char*)>("unlink");
-  return strikes() ? failure() : real(path);
+  return strikesWhole() ? failure() : real(path);
 }
 int mkdir(const char* path, mode_t mode) {
   static const auto real = next<int (*)(const char*, mode_t)>("mkdir");
-  return strikes() ? failure() : real(path, mode);
+  return strikesWhole() ? failure() : real(path, mode);
 }
 }

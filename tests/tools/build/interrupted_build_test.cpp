@@ -48,9 +48,9 @@ class InterruptedBuild : public testing::Test {
 
   // One thread: calls come in the same order every time.
   Outcome build(const std::string& mesh, const std::string& pack, const std::string& faults = "",
-                const std::string& options = "--threads 1 --leaf-triangles 64 --samples 1") const {
+                const std::string& options = "--threads 1 --leaf-triangles 100 --samples 1 --image-size 16") const {
     const std::string command = fmt::format(
-        "cd '{}' && exec env {} '{}/farcell-build' {} -o {} --quiet --views 12 --image-size 16 {} 2>err.txt",
+        "cd '{}' && exec env {} '{}/farcell-build' {} -o {} --quiet --views 12 {} 2>err.txt >out.txt",
         directory_.path().string(), faults.empty() ? "" : fmt::format("LD_PRELOAD='{}' {}", FARCELL_IO_FAULTS, faults),
         FARCELL_PROGRAMS_DIR, mesh, pack, options);
     const int status = std::system(command.c_str());
@@ -73,7 +73,7 @@ class InterruptedBuild : public testing::Test {
 };
 
 TEST_F(InterruptedBuild, KilledAtAnyChangeOfAFileTheSameCommandGivesTheSameBytes) {
-  directory_.write("wavy.obj", wavyObj(12));
+  directory_.write("wavy.obj", wavyObj(9));
   ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
   const std::string whole = bytes("whole.far");
   const int calls = callsOfWholeBuild();
@@ -93,7 +93,7 @@ TEST_F(InterruptedBuild, KilledAtAnyChangeOfAFileTheSameCommandGivesTheSameBytes
 }
 
 TEST_F(InterruptedBuild, AFullOrBrokenDiskIsAnErrorThatNamesTheFileAndLosesNothing) {
-  directory_.write("wavy.obj", wavyObj(12));
+  directory_.write("wavy.obj", wavyObj(9));
   ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
   const std::string whole = bytes("whole.far");
   const int calls = callsOfWholeBuild();
@@ -117,7 +117,7 @@ TEST_F(InterruptedBuild, AFullOrBrokenDiskIsAnErrorThatNamesTheFileAndLosesNothi
 }
 
 TEST_F(InterruptedBuild, WritesThatDoLessThanAskedGoOn) {
-  directory_.write("wavy.obj", wavyObj(12));
+  directory_.write("wavy.obj", wavyObj(9));
   ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
   const int calls = callsOfWholeBuild();
   for (int at = 1; at <= calls; at += 3) {
@@ -132,7 +132,7 @@ TEST_F(InterruptedBuild, WritesThatDoLessThanAskedGoOn) {
 // FARCELL_KILLS: how many kills in all; tests/bench/resume does 200 on a larger model.
 TEST_F(InterruptedBuild, KilledAtRandomTimesItStillComesToTheSameBytes) {
   directory_.write("wavy.obj", wavyObj(60));
-  const std::string options = "--leaf-triangles 300 --samples 4";
+  const std::string options = "--leaf-triangles 300 --samples 4 --image-size 32";
   ASSERT_EQ(build("wavy.obj", "whole.far", "", options + " --threads 2").code, 0);
   const char* wanted = std::getenv("FARCELL_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 12;
@@ -144,8 +144,8 @@ TEST_F(InterruptedBuild, KilledAtRandomTimesItStillComesToTheSameBytes) {
     const int threads = 1 + static_cast<int>(random() % 3);
     const double seconds = 0.01 + static_cast<double>(random() % 1000) * 0.0003;
     const std::string command = fmt::format(
-        "cd '{}' && timeout -s KILL {:.3f} '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 --image-size 16 {} "
-        "--threads {} --memory {}M 2>err.txt",
+        "cd '{}' && timeout -s KILL {:.3f} '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 {} "
+        "--threads {} --memory {}M 2>err.txt >out.txt",
         directory_.path().string(), seconds, FARCELL_PROGRAMS_DIR, options, threads, 256 + 128 * (random() % 4));
     const int status = std::system(command.c_str());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -163,19 +163,19 @@ TEST_F(InterruptedBuild, KilledAtRandomTimesItStillComesToTheSameBytes) {
 }
 
 TEST_F(InterruptedBuild, AnotherInputOrSettingStartsAnew) {
-  directory_.write("wavy.obj", wavyObj(12));
-  ASSERT_TRUE(build("wavy.obj", "x.far", "FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT=40").killed);
+  directory_.write("wavy.obj", wavyObj(9));
+  ASSERT_TRUE(build("wavy.obj", "x.far", "FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT=20").killed);
   ASSERT_TRUE(exists("x.far.work"));
-  directory_.write("wavy.obj", wavyObj(11));
+  directory_.write("wavy.obj", wavyObj(8));
   ASSERT_EQ(build("wavy.obj", "x.far").code, 0);
   ASSERT_EQ(build("wavy.obj", "fresh.far").code, 0);
   EXPECT_TRUE(bytes("x.far") == bytes("fresh.far"));
 }
 
 TEST_F(InterruptedBuild, TwoBuildsDoNotWorkInOneDirectory) {
-  directory_.write("wavy.obj", wavyObj(150));
-  const std::string options = "--leaf-triangles 300 --samples 16 --threads 1";
-  const std::string first = fmt::format("cd '{}' && '{}/farcell-build' wavy.obj -o x.far --quiet {} 2>first.txt &",
+  directory_.write("wavy.obj", wavyObj(40));
+  const std::string options = "--leaf-triangles 300 --samples 16 --threads 1 --image-size 256";
+  const std::string first = fmt::format("cd '{}' && '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 {} 2>first.txt >out.txt &",
                                         directory_.path().string(), FARCELL_PROGRAMS_DIR, options);
   ASSERT_EQ(std::system(first.c_str()), 0);
   for (int wait = 0; wait < 500 && !exists("x.far.work/identity"); ++wait)
