@@ -46,6 +46,7 @@ layers() {
       for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
+      add("preprocess/choose/", "preprocess", 11)
       add("preprocess/encode/", "preprocess", 14); add("preprocess/build/", "preprocess", 15)
       add("runtime/gl/", "runtime", 9)
       add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
@@ -93,7 +94,7 @@ dependencies() {
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
   heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
-  heavy nlohmann '[<"]nlohmann/' '^(preprocess/read/(scene|gltf)|runtime/camera|tools|tests)/'
+  heavy nlohmann '[<"]nlohmann/' '^(preprocess/(read/(scene|gltf)|choose)|runtime/camera|tools|tests)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'
   heavy GoogleTest '[<"](gtest|gmock)/' '^tests/'
   heavy 'Google Benchmark' '[<"]benchmark/' '^tests/bench/'

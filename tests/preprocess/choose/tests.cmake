@@ -1,0 +1,1 @@
+farcell_tests(preprocess/choose DEPS farcell_preprocess_choose farcell_runtime_selection farcell_tests_support)
