@@ -91,7 +91,7 @@ void Chooser::measureCells() {
 
 // From the leaves up: what a cell would be drawn by instead is then known. Its parent is taken to keep its views.
 void Chooser::leaveOutWorthless() {
-  Worth worth(input_.model, input_.cells, meanTexels_);
+  Worth worth(input_.cells, meanTexels_);
   for (auto cell = static_cast<uint32_t>(input_.cells.size()); cell-- > 0;) {
     if (cellViews_[cell].count == 0) continue;
     fates_[cell] = fateOf(cell, worth);
@@ -164,7 +164,7 @@ void Chooser::spendByWorth(uint64_t left) {
       return perByte != other.perByte ? perByte < other.perByte : cell > other.cell;
     }
   };
-  Worth worth(input_.model, input_.cells, meanTexels_);
+  Worth worth(input_.cells, meanTexels_);
   std::vector<bool> taken(input_.cells.size());
   const auto offer = [&](uint32_t cell) {
     const double value = worth.of(cell, [&](uint32_t above) { return taken[above]; });
@@ -179,6 +179,10 @@ void Chooser::spendByWorth(uint64_t left) {
       offers.push(now);
       continue;
     }
+    if (now.perByte < settings_.leastWorthPerByte) {
+      fates_[now.cell] = ViewFate::costsMoreThanItBrings;
+      continue;
+    }
     if (!take(now.cell, left)) continue;
     taken[now.cell] = true;
     worth.keep(now.cell);
@@ -188,6 +192,9 @@ void Chooser::spendByWorth(uint64_t left) {
 Choice Chooser::choice() const {
   Choice result;
   result.packBytes = bytesWithoutViews() + viewBytes();
+  Worth worth(input_.cells, meanTexels_);
+  for (const uint32_t cell : candidates()) worth.keep(cell);
+  result.costUs = worth.total();
   result.views.reserve(input_.views.size());
   std::vector<uint32_t> baked(input_.cells.size());
   for (const ViewCost& view : input_.views) {

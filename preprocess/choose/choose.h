@@ -40,7 +40,6 @@ struct ViewCost {
 
 // The spans must outlive the call. Of a cell, all views that somebody can get are there.
 struct ChooseInput {
-  const Model& model;
   const Viewpoints& viewpoints;
   std::span<const CellRecord> cells;        // as a directory has them; pages not looked at
   std::span<const uint32_t> geometryBytes;  // per cell, of its page as stored; 0: none
@@ -52,13 +51,13 @@ enum class BudgetRule {
   triangles,  // cells of most triangles first: the rule of the 2010 paper, as a baseline
 };
 
-// Modelled microseconds a frame and octave of distance that a byte has to bring: a leaf of 128^2 views brings thousands
-// of times as much.
+// Modelled microseconds a frame and octave of distance that a byte has to bring. A full leaf's 42 views of 128^2 bring
+// a hundred times as much; ten times more would leave out most of a city's impostors.
 inline constexpr double kLeastWorthPerByte = 1e-4;
 
 struct ChooseSettings {
   double leastWorthPerByte = kLeastWorthPerByte;
-  std::optional<uint64_t> packBudgetBytes;
+  std::optional<uint64_t> packBudgetBytes = std::nullopt;
   BudgetRule rule = BudgetRule::worth;
 };
 
@@ -73,6 +72,7 @@ struct Choice {
   std::vector<ViewFate> views;  // of ChooseInput::views
   std::array<LeftOutCount, kViewFates> counts{};
   uint64_t packBytes = 0;  // at most
+  double costUs = 0;       // of drawing the model, as worth.h has it: a frame, summed over octaves of distance
   // BuildReport::viewsLeftOut, of which reasons there are.
   std::map<std::string, uint64_t> viewsLeftOut() const;
 };

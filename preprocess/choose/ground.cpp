@@ -55,27 +55,21 @@ void Ground::addContent(const GridBox& content) {
       at(kGroundLevel, east, north) = std::min(at(kGroundLevel, east, north), low);
 }
 
-// Points of columns that touch may be at no distance, points of columns that are k apart at k - 1 widths: each column
-// takes the lowest of the nine around it, then each step away may rise by a width's slope. Two sweeps (Rosenfeld and
-// Pfaltz, Sequential Operations in Digital Picture Processing, 1966) carry that everywhere.
+// Each column away the surface may rise by a width's slope: two sweeps carry that everywhere (Rosenfeld and Pfaltz,
+// Sequential Operations in Digital Picture Processing, 1966).
 void Ground::flatten() {
-  const std::vector<double> own = heights_[kGroundLevel];
   const double rise = kGroundSlope * std::ldexp(1.0, bits_ - kGroundLevel);
-  const auto lower = [&](int east, int north, int eastFrom, int northFrom, const std::vector<double>& from, double by) {
+  const auto lower = [&](int east, int north, int eastFrom, int northFrom) {
     if (eastFrom < 0 || northFrom < 0 || eastFrom >= kColumns || northFrom >= kColumns) return;
     double& height = at(kGroundLevel, east, north);
-    height = std::min(height, from[static_cast<size_t>(northFrom * kColumns + eastFrom)] + by);
+    height = std::min(height, at(kGroundLevel, eastFrom, northFrom) + rise);
   };
-  for (int north = 0; north < kColumns; ++north)
-    for (int east = 0; east < kColumns; ++east)
-      for (int i = 0; i < 9; ++i) lower(east, north, east + i % 3 - 1, north + i / 3 - 1, own, 0);
-  const std::vector<double>& heights = heights_[kGroundLevel];
   for (const int step : {1, -1})
     for (int row = 0; row < kColumns; ++row)
       for (int column = 0; column < kColumns; ++column) {
         const int east = step > 0 ? column : kColumns - 1 - column, north = step > 0 ? row : kColumns - 1 - row;
-        for (int i = -1; i <= 1; ++i) lower(east, north, east + i, north - step, heights, rise);
-        lower(east, north, east - step, north, heights, rise);
+        for (int i = -1; i <= 1; ++i) lower(east, north, east + i, north - step);
+        lower(east, north, east - step, north);
       }
 }
 

@@ -1,10 +1,11 @@
-// How low a visitor above the ground may be: a surface that lies nowhere above the true ground, as far as the boxes of
-// cells tell (a model may have no ground at all: houses only). A visitor's eye is at or above it.
+// How low a visitor above the ground may be, as far as the boxes of cells tell (a model may have no ground at all:
+// houses only). A visitor's eye is at or above it.
 //
-// The ground of a column of cells is the lowest content in it: a hill carries its houses. But a column may hold nothing
-// but what hangs over the ground (a bridge, a chin), or nothing. So the surface rises no steeper than kGroundSlope from
-// what is lowest around: it is the lower envelope of cones over every column's lowest content. Where the ground is
-// really steeper, the surface is below it, which is safe. Outside the root cube it is as low as the lowest content.
+// The ground of a column of cells is the lowest content in it: on a hill it is as high as the hill. But a column may
+// hold nothing but what hangs over the ground (a bridge, a chin), or nothing. So the ground rises no steeper than
+// kGroundSlope from what is lowest around: the lower envelope of cones over every column's lowest content. Wherever the
+// model has its ground as content, the true ground is at or above this; where it has none, it is taken to fall no
+// deeper below what is around than the envelope says. Outside the root cube the ground is as low as the lowest content.
 #pragma once
 
 #include <span>
@@ -33,10 +34,13 @@ class Ground {
   void flatten();
   void buildPyramid();
   void visit(const Standing& standing, int level, int east, int north, double& lowest) const;
-  double& at(int level, int east, int north) {
-    return heights_[static_cast<size_t>(level)][static_cast<size_t>(north) << level | static_cast<size_t>(east)];
+  static size_t place(int level, int east, int north) {
+    return static_cast<size_t>(north) << level | static_cast<size_t>(east);
   }
-  double at(int level, int east, int north) const { return const_cast<Ground*>(this)->at(level, east, north); }
+  double& at(int level, int east, int north) { return heights_[static_cast<size_t>(level)][place(level, east, north)]; }
+  double at(int level, int east, int north) const {
+    return heights_[static_cast<size_t>(level)][place(level, east, north)];
+  }
 
   int bits_;
   int up_, east_, north_;                     // axes

@@ -11,7 +11,7 @@ constexpr int kOctavesBeyondRoot = 2;
 
 }  // namespace
 
-Worth::Worth(const Model&, std::span<const CellRecord> cells, std::span<const float> meanTexels)
+Worth::Worth(std::span<const CellRecord> cells, std::span<const float> meanTexels)
     : cells_(cells), meanTexels_(meanTexels), kept_(cells.size()) {
   for (const CellRecord& cell : cells) deepest_ = std::max(deepest_, static_cast<int>(cell.key.level));
   samples_ = kSamplesPerOctave * (deepest_ + kOctavesBeyondRoot);
@@ -50,6 +50,13 @@ double Worth::between(uint32_t cell, int end) const {
   double saved = 0;
   for (int sample = first(cell); sample < end; ++sample) saved += without(cell, sample) - impostor(cell, sample);
   return saved / kSamplesPerOctave;
+}
+
+double Worth::total() const {
+  double sum = 0;
+  if (!cells_.empty())
+    for (int sample = 0; sample < samples_; ++sample) sum += costs_[static_cast<size_t>(sample)];
+  return sum / kSamplesPerOctave;
 }
 
 void Worth::keep(uint32_t cell) {

@@ -40,7 +40,8 @@ inline constexpr double kWorthTexelPixels = 0.5;
 class Worth {
  public:
   // meanTexels: per cell, of its views' cropped rectangles; 0 where it has none to choose from. No cell has views yet.
-  Worth(const Model& model, std::span<const CellRecord> cells, std::span<const float> meanTexels);
+  // Both must outlive this.
+  Worth(std::span<const CellRecord> cells, std::span<const float> meanTexels);
 
   // What the views of `cell` are worth now: from where they are first drawn to where the views of the nearest ancestor
   // for which `keeps` is true take over (any callable of a cell's index).
@@ -50,6 +51,8 @@ class Worth {
     while (above != kNone && !keeps(above)) above = cells_[above].parent;
     return between(cell, above == kNone ? samples_ : first(above));
   }
+  // Of drawing the whole model as it is now, microseconds a frame summed over octaves.
+  double total() const;
   // From here on the cell has views.
   void keep(uint32_t cell);
 

@@ -112,15 +112,17 @@ Result<> bench(const Arguments& arguments) {
   std::vector<std::optional<uint64_t>> budgets(arguments.budgets.begin(), arguments.budgets.end());
   if (budgets.empty()) budgets.push_back(std::nullopt);
   for (const std::optional<uint64_t>& budget : budgets) {
-    const ChooseInput input{directory.model, viewpoints, directory.cells, measured.geometryBytes, measured.views};
+    const ChooseInput input{viewpoints, directory.cells, measured.geometryBytes, measured.views};
     const BudgetRule rule = arguments.rule == "worth" ? BudgetRule::worth : BudgetRule::triangles;
     const auto chooseStart = std::chrono::steady_clock::now();
     FARCELL_ASSIGN(const Choice choice, chooseViews(input, {arguments.leastWorth, budget, rule}));
     const double chooseMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - chooseStart).count();
-    fmt::print("{} visitable {} budget {} rule {}: pack {} of {} bytes, visitable {:.0f} ms, choose {:.0f} ms\n",
-               arguments.pack, arguments.visitable, budget.value_or(0), arguments.rule, choice.packBytes,
-               pack.sizeBytes(), visitableMs, chooseMs);
+    fmt::print(
+        "{} visitable {} budget {} rule {}: pack {} of {} bytes, modelled {:.0f} us, visitable {:.0f} ms, choose "
+        "{:.0f} ms\n",
+        arguments.pack, arguments.visitable, budget.value_or(0), arguments.rule, choice.packBytes, pack.sizeBytes(),
+        choice.costUs, visitableMs, chooseMs);
     for (const std::string& line : reportLines(choice)) fmt::print("  {}\n", line);
     if (!arguments.cells.empty()) printCells(arguments.cells, directory, measured.views, choice.views);
     if (arguments.output.empty()) continue;

@@ -19,7 +19,7 @@ struct Scene {
   std::vector<uint32_t> geometryBytes;
   std::vector<ViewCost> views;
 
-  ChooseInput input() const { return {model, viewpoints, cells, geometryBytes, views}; }
+  ChooseInput input() const { return {viewpoints, cells, geometryBytes, views}; }
 
   // Gives every cell its views; of a leaf, more triangles are more bytes.
   void bake(std::mt19937& random) {
@@ -128,7 +128,7 @@ TEST(Worth, IsWhatTheModelSaves) {
     SCOPED_TRACE(seed);
     const Scene scene = randomScene(seed);
     const std::vector<float> texels = meanTexels(scene);
-    Worth worth(scene.model, scene.cells, texels);
+    Worth worth(scene.cells, texels);
     std::vector<bool> kept(scene.cells.size());
     std::mt19937 random(seed);
     for (int i = 0; i < 30; ++i) {
@@ -168,7 +168,7 @@ TEST(Choose, LeavesOutLeavesOfFewTriangles) {
   scene.geometryBytes = {0, 50, 40000};
   for (uint32_t cell = 0; cell < 3; ++cell)
     for (uint32_t view = 0; view < 42; ++view) scene.views.push_back({cell, view, 3000, 8000});
-  const Choice choice = *chooseViews(scene.input(), {});
+  const Choice choice = *chooseViews(scene.input(), {.leastWorthPerByte = -1e9});
   EXPECT_EQ(choice.views[42], ViewFate::cheaperAsTriangles);
   EXPECT_EQ(choice.views[84], ViewFate::kept);
   EXPECT_EQ(choice.counts[size_t(ViewFate::cheaperAsTriangles)].views, 42u);
@@ -235,7 +235,9 @@ TEST(Choose, WorthBuysMoreThanTriangleCounts) {
       const Choice choice = *chooseViews(scene.input(), {-1e9, whole / 2 + whole / 4, rule});
       std::vector<bool> kept;
       for (const int keeps : wholeCells(scene, choice.views)) kept.push_back(keeps == 1);
-      saved[static_cast<size_t>(rule)] += 1 - costOf(scene, texels, kept) / nothing;
+      const double cost = costOf(scene, texels, kept);
+      EXPECT_NEAR(choice.costUs, cost, 1e-9 * cost);
+      saved[static_cast<size_t>(rule)] += 1 - cost / nothing;
     }
   }
   EXPECT_GT(saved[0], saved[1]);
@@ -255,7 +257,8 @@ TEST(Choose, NamesTheLeastPossibleBudget) {
 
 TEST(Choose, ReportsALineForEachReason) {
   const Scene scene = randomScene(1);
-  const Choice choice = *chooseViews(scene.input(), {.packBudgetBytes = 3'000'000});
+  const uint64_t whole = chooseViews(scene.input(), {})->packBytes;
+  const Choice choice = *chooseViews(scene.input(), {.packBudgetBytes = whole - 1});
   const std::vector<std::string> lines = reportLines(choice);
   EXPECT_EQ(lines.size(), choice.viewsLeftOut().size());
   EXPECT_NE(lines.back().find("packBudget"), std::string::npos);

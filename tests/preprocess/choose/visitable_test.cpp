@@ -141,7 +141,7 @@ TEST(Visitable, NobodyAboveTheGroundMissesAView) {
     const City city = cityOf(random, seed % 2 == 0 ? 0 : kSteps * 0.01, seed % 3, seed > 4 ? 162 : 42);
     const Grid& grid = city.directory.model.grid;
     Visits visits(city, Region{Region::Kind::aboveGround, {}}, random);
-    EXPECT_LT(visits.shareSeen(), 0.9);
+    EXPECT_LT(visits.shareSeen(), city.hill > 0 ? 0.99 : 0.9);
     for (int i = 0; i < 300; ++i) {
       const int up = city.up, east = (up + 1) % 3, north = (up + 2) % 3;
       glm::dvec3 steps;
@@ -177,7 +177,7 @@ TEST(Visitable, NobodyInABoxMissesAView) {
       for (int axis = 0; axis < 3; ++axis) position[axis] = uniform(random, box.min[axis], box.max[axis]);
       visits.look(position);
     }
-    EXPECT_GT(visits.drawn(), 1000u);
+    EXPECT_GT(visits.drawn(), 100u);
   }
 }
 
