@@ -27,6 +27,7 @@ uint64_t pageCost(uint64_t storedBytes) { return alignedUp(storedBytes) + kPageR
 // What the views of one cell are, together.
 struct CellViews {
   uint64_t bytes = 0;  // in the pack
+  uint64_t bare = 0;   // headers and streams, without what pages add
   uint32_t count = 0;  // not empty
 };
 
@@ -80,6 +81,7 @@ void Chooser::measureCells() {
       uint64_t& bytes = groupBytes[static_cast<size_t>(input_.viewpoints.group(static_cast<int>(view.view)))];
       bytes += (bytes == 0 ? kViewPageHeaderBytes : 0) + kViewHeaderBytes + view.bytes;
       texels += view.texels;
+      cellViews_[cell].bare += kViewHeaderBytes + view.bytes;
       ++cellViews_[cell].count;
     }
     for (const uint64_t bytes : groupBytes)
@@ -210,7 +212,7 @@ Choice Chooser::choice() const {
     unseen.views += all - baked[cell];
     if (views.count == 0) continue;
     result.counts[static_cast<size_t>(fates_[cell])].bytes += views.bytes;
-    unseen.bytes += views.bytes * (all - baked[cell]) / views.count;
+    unseen.bytes += views.bare * (all - baked[cell]) / views.count;
   }
   return result;
 }

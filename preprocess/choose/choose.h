@@ -63,8 +63,8 @@ struct ChooseSettings {
 
 struct LeftOutCount {
   uint64_t views = 0;
-  // That the pack would be larger by, with the pages' headers, padding and records. Of views that were not baked: as if
-  // they were like the cell's others.
+  // That the pack would be larger by, with the pages' headers, padding and records. Of views that were not baked: if
+  // they were as large as the cell's others, without pages.
   uint64_t bytes = 0;
 };
 
