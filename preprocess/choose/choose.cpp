@@ -13,9 +13,10 @@ namespace {
 
 // FORMAT.md; what of the directory depends on names and reasons is allowed for.
 constexpr uint64_t kPageRecordBytes = 40;
-constexpr uint64_t kCellRecordBytes = 72;
+constexpr uint64_t kCellRecordBytes = 92;
 constexpr uint64_t kViewPageHeaderBytes = 8;
-constexpr uint64_t kViewHeaderBytes = 28;
+constexpr uint64_t kViewHeaderBytes = 32;
+constexpr uint64_t kPartTriangles = 131072;  // of a mesh, a page
 constexpr uint64_t kDirectoryAllowance = 8192;
 
 constexpr std::array<const char*, kViewFates> kFateNames = {
@@ -114,8 +115,11 @@ ViewFate Chooser::fateOf(uint32_t index, const Worth& worth) const {
 
 uint64_t Chooser::bytesWithoutViews() const {
   uint64_t bytes = kHeaderBytes + kFooterBytes + kDirectoryAllowance + kCellRecordBytes * input_.cells.size();
-  for (const uint32_t geometry : input_.geometryBytes)
-    if (geometry > 0) bytes += pageCost(geometry);
+  for (size_t cell = 0; cell < input_.cells.size(); ++cell) {
+    if (input_.geometryBytes[cell] == 0) continue;
+    const uint64_t morePages = input_.cells[cell].meshTriangles / kPartTriangles;
+    bytes += pageCost(input_.geometryBytes[cell]) + morePages * pageCost(kPageAlignment);
+  }
   return bytes;
 }
 

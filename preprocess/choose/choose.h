@@ -42,7 +42,7 @@ struct ViewCost {
 struct ChooseInput {
   const Viewpoints& viewpoints;
   std::span<const CellRecord> cells;        // as a directory has them; pages not looked at
-  std::span<const uint32_t> geometryBytes;  // per cell, of its page as stored; 0: none
+  std::span<const uint32_t> geometryBytes;  // per cell, its pages as stored; 0: none
   std::span<const ViewCost> views;          // by cell, then view, each at most once
 };
 
