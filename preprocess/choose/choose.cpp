@@ -14,7 +14,8 @@ namespace {
 
 // FORMAT.md; what of the directory depends on names and reasons is allowed for.
 constexpr uint64_t kViewPageHeaderBytes = 8;
-constexpr uint64_t kViewHeaderBytes = 28;
+constexpr uint64_t kViewHeaderBytes = 32;
+constexpr uint64_t kPartTriangles = 131072;  // of a mesh, a page
 constexpr uint64_t kDirectoryAllowance = 8192;
 
 constexpr std::array<const char*, kViewFates> kFateNames = {
@@ -26,6 +27,7 @@ uint64_t pageCost(uint64_t storedBytes) { return alignedUp(storedBytes) + kPageR
 // What the views of one cell are, together.
 struct CellViews {
   uint64_t bytes = 0;  // in the pack
+  uint64_t bare = 0;   // headers and streams, without what pages add
   uint32_t count = 0;  // not empty
 };
 
@@ -79,6 +81,7 @@ void Chooser::measureCells() {
       uint64_t& bytes = groupBytes[static_cast<size_t>(input_.viewpoints.group(static_cast<int>(view.view)))];
       bytes += (bytes == 0 ? kViewPageHeaderBytes : 0) + kViewHeaderBytes + view.bytes;
       texels += view.texels;
+      cellViews_[cell].bare += kViewHeaderBytes + view.bytes;
       ++cellViews_[cell].count;
     }
     for (const uint64_t bytes : groupBytes)
@@ -111,8 +114,11 @@ ViewFate Chooser::fateOf(uint32_t index, const Worth& worth) const {
 
 uint64_t Chooser::bytesWithoutViews() const {
   uint64_t bytes = kHeaderBytes + kFooterBytes + kDirectoryAllowance + kCellRecordBytes * input_.cells.size();
-  for (const uint32_t geometry : input_.geometryBytes)
-    if (geometry > 0) bytes += pageCost(geometry);
+  for (size_t cell = 0; cell < input_.cells.size(); ++cell) {
+    if (input_.geometryBytes[cell] == 0) continue;
+    const uint64_t morePages = input_.cells[cell].meshTriangles / kPartTriangles;
+    bytes += pageCost(input_.geometryBytes[cell]) + morePages * pageCost(kPageAlignment);
+  }
   return bytes;
 }
 
@@ -209,7 +215,7 @@ Choice Chooser::choice() const {
     unseen.views += all - baked[cell];
     if (views.count == 0) continue;
     result.counts[static_cast<size_t>(fates_[cell])].bytes += views.bytes;
-    unseen.bytes += views.bytes * (all - baked[cell]) / views.count;
+    unseen.bytes += views.bare * (all - baked[cell]) / views.count;
   }
   return result;
 }

@@ -42,7 +42,7 @@ struct ViewCost {
 struct ChooseInput {
   const Viewpoints& viewpoints;
   std::span<const CellRecord> cells;        // as a directory has them; pages not looked at
-  std::span<const uint32_t> geometryBytes;  // per cell, of its page as stored; 0: none
+  std::span<const uint32_t> geometryBytes;  // per cell, its pages as stored; 0: none
   std::span<const ViewCost> views;          // by cell, then view, each at most once
 };
 
@@ -58,8 +58,8 @@ struct ChooseSettings {
 
 struct LeftOutCount {
   uint64_t views = 0;
-  // That the pack would be larger by, with the pages' headers, padding and records. Of views that were not baked: as if
-  // they were like the cell's others.
+  // That the pack would be larger by, with the pages' headers, padding and records. Of views that were not baked: if
+  // they were as large as the cell's others, without pages.
   uint64_t bytes = 0;
 };
 

@@ -24,13 +24,14 @@ struct Measured {
 };
 
 Result<Measured> measure(const PackFile& pack) {
-  constexpr size_t kPageOfOneBytes = 8 + 28;  // FORMAT.md
+  constexpr size_t kPageOfOneBytes = 8 + 32;  // FORMAT.md
   const Directory& directory = pack.directory();
   Measured measured;
   for (uint32_t cell = 0; cell < directory.cells.size(); ++cell) {
     const CellRecord& record = directory.cells[cell];
-    measured.geometryBytes.push_back(record.geometryPage == kNone ? 0
-                                                                  : directory.pages[record.geometryPage].storedBytes);
+    measured.geometryBytes.push_back(0);
+    for (uint32_t page = record.firstGeometryPage; page < record.firstGeometryPage + record.geometryPageCount; ++page)
+      measured.geometryBytes.back() += directory.pages[page].storedBytes;
     const size_t first = measured.views.size();
     for (uint32_t page = record.firstViewPage; page < record.firstViewPage + record.viewPageCount; ++page) {
       FARCELL_ASSIGN(const ViewPage content, pack.readViews(page));
@@ -53,10 +54,11 @@ Result<uint64_t> write(const PackFile& pack, const std::vector<std::vector<bool>
     const CellRecord was = record;
     record.firstViewPage = kNone;
     record.viewPageCount = 0;
-    if (was.geometryPage != kNone) {
-      FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(was.geometryPage));
-      FARCELL_ASSIGN(record.geometryPage,
-                     writer.add(PageKind::geometry, cell, 0, decodedSizeBytes(page), encodeGeometryPage(page)));
+    for (uint32_t part = 0; part < was.geometryPageCount; ++part) {
+      FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(was.firstGeometryPage + part));
+      FARCELL_ASSIGN(const uint32_t index,
+                     writer.add(PageKind::geometry, cell, part, decodedSizeBytes(page), encodeGeometryPage(page)));
+      if (part == 0) record.firstGeometryPage = index;
     }
     for (uint32_t page = was.firstViewPage; page < was.firstViewPage + was.viewPageCount; ++page) {
       FARCELL_ASSIGN(ViewPage content, pack.readViews(page));
