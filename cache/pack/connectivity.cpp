@@ -17,7 +17,7 @@ class EdgeList {
   struct Edge {
     uint32_t from = 0;
     uint32_t to = 0;
-    bool operator==(const Edge&) const = default;
+    uint32_t opposite = 0;  // the third corner of the triangle it was met in
   };
 
   uint32_t size() const { return size_; }
@@ -27,16 +27,16 @@ class EdgeList {
   uint8_t find(const Triangle& corners) const {
     for (uint32_t age = 0; age < size_; ++age)
       for (uint32_t rotation = 0; rotation < 3; ++rotation)
-        if (at(age) == Edge{corners[rotation], corners[(rotation + 1) % 3]})
+        if (at(age).from == corners[rotation] && at(age).to == corners[(rotation + 1) % 3])
           return static_cast<uint8_t>(3 * age + rotation);
     return kNoSharedEdge;
   }
 
   // `corners` starts with the shared edge, if there is one.
   void add(const Triangle& corners, bool shared) {
-    if (!shared) push({corners[1], corners[0]});
-    push({corners[2], corners[1]});
-    push({corners[0], corners[2]});
+    if (!shared) push({corners[1], corners[0], corners[2]});
+    push({corners[2], corners[1], corners[0]});
+    push({corners[0], corners[2], corners[1]});
   }
 
  private:
@@ -58,6 +58,8 @@ Triangle rotated(const Triangle& corners, uint32_t rotation) {
 Triangle triangleAt(std::span<const uint32_t> indices, size_t first) {
   return {indices[first], indices[first + 1], indices[first + 2]};
 }
+
+Parallelogram across(const EdgeList::Edge& edge) { return {edge.from, edge.to, edge.opposite}; }
 
 uint32_t rotationOf(uint8_t code) { return code == kNoSharedEdge ? 0 : code % 3; }
 
@@ -81,6 +83,20 @@ ConnectivityCodes codedTriangles(std::span<const uint32_t> indices) {
   return codes;
 }
 
+Parallelograms parallelogramsOf(std::span<const uint32_t> indices, size_t vertexCount) {
+  Parallelograms result(vertexCount);
+  EdgeList edges;
+  uint32_t next = 0;
+  for (size_t first = 0; first < indices.size(); first += 3) {
+    const uint8_t code = edges.find(triangleAt(indices, first));
+    const Triangle corners = rotated(triangleAt(indices, first), rotationOf(code));
+    if (code != kNoSharedEdge && corners[2] == next) result[next] = across(edges.at(code / 3u));
+    for (const uint32_t corner : corners) next = std::max(next, corner + 1);
+    edges.add(corners, code != kNoSharedEdge);
+  }
+  return result;
+}
+
 Result<size_t> cornerCount(std::span<const std::byte> triangleCodes) {
   size_t count = 0;
   for (const std::byte code : triangleCodes) {
@@ -92,9 +108,9 @@ Result<size_t> cornerCount(std::span<const std::byte> triangleCodes) {
   return count;
 }
 
-Result<std::vector<uint32_t>> decodedTriangles(std::span<const std::byte> triangleCodes,
-                                               std::span<const uint32_t> corners, uint32_t vertexCount) {
-  std::vector<uint32_t> indices(3 * triangleCodes.size());
+Result<DecodedTriangles> decodedTriangles(std::span<const std::byte> triangleCodes, std::span<const uint32_t> corners,
+                                          uint32_t vertexCount) {
+  DecodedTriangles result{std::vector<uint32_t>(3 * triangleCodes.size()), Parallelograms(vertexCount)};
   EdgeList edges;
   uint32_t next = 0;
   size_t used = 0;
@@ -110,13 +126,14 @@ Result<std::vector<uint32_t>> decodedTriangles(std::span<const std::byte> triang
       if (triangle[i] >= vertexCount)
         return fail(ErrorKind::corrupt, "triangle {}: expected a vertex below {}, found {}", t, vertexCount,
                     triangle[i]);
+      if (shared && triangle[i] == next) result.parallelograms[next] = across(edges.at(code / 3u));
       next = std::max(next, triangle[i] + 1);
     }
     edges.add(triangle, shared);
     const Triangle original = rotated(triangle, (3 - rotationOf(code)) % 3);
-    std::copy(original.begin(), original.end(), indices.begin() + static_cast<ptrdiff_t>(3 * t));
+    std::copy(original.begin(), original.end(), result.indices.begin() + static_cast<ptrdiff_t>(3 * t));
   }
-  return indices;
+  return result;
 }
 
 void rotateForCoding(std::span<uint32_t> indices) {

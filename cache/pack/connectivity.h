@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cache/base/result.h"
+#include "cache/pack/words.h"
 
 namespace farcell {
 
@@ -18,18 +19,28 @@ struct ConnectivityCodes {
   std::vector<uint8_t> triangles;  // one a triangle: 3 * edge + rotation, or kNoSharedEdge
   std::vector<uint32_t> corners;   // zigzag differences
 };
+
+// Of each vertex that came into the mesh as the third corner of a triangle with a known edge: that edge, and the vertex
+// across it. Most surfaces make a parallelogram of the four.
+using Parallelograms = std::vector<Parallelogram>;
+
+struct DecodedTriangles {
+  std::vector<uint32_t> indices;
+  Parallelograms parallelograms;
+};
 inline constexpr uint32_t kEdgeListSize = 16;
 inline constexpr uint8_t kNoSharedEdge = 3 * kEdgeListSize;
 
 // REQUIRES: three indices a triangle.
 ConnectivityCodes codedTriangles(std::span<const uint32_t> indices);
+Parallelograms parallelogramsOf(std::span<const uint32_t> indices, size_t vertexCount);
 
 // How many corners follow these codes; corrupt when a code is above kNoSharedEdge.
 Result<size_t> cornerCount(std::span<const std::byte> triangleCodes);
 
 // REQUIRES: corners.size() == cornerCount(triangleCodes). corrupt when an edge or a vertex does not exist.
-Result<std::vector<uint32_t>> decodedTriangles(std::span<const std::byte> triangleCodes,
-                                               std::span<const uint32_t> corners, uint32_t vertexCount);
+Result<DecodedTriangles> decodedTriangles(std::span<const std::byte> triangleCodes, std::span<const uint32_t> corners,
+                                          uint32_t vertexCount);
 
 // Starts each triangle at the corner that codes best; order and winding stay.
 void rotateForCoding(std::span<uint32_t> indices);

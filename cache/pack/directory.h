@@ -20,10 +20,10 @@ struct PageRecord {
   PageKind kind = PageKind::geometry;
   uint32_t cell = 0;          // index into Directory::cells
   uint32_t group = 0;         // views: the viewpoint group (Viewpoints::group) this page holds; geometry: its part
-  uint64_t offsetBytes = 0;   // from the start of the file, a multiple of kPageAlignment
-  uint32_t storedBytes = 0;   // as stored; the padding after it is zero
+  uint64_t offsetBytes = 0;   // from the start of the file
+  uint32_t storedBytes = 0;   // as stored
   uint32_t decodedBytes = 0;  // what it occupies in memory once decoded: budgets are charged with this
-  uint64_t checksum = 0;      // XXH3-64 of the stored bytes and the padding up to the next page
+  uint64_t checksum = 0;      // XXH3-64 of the stored bytes
 };
 
 struct CellRecord {

@@ -202,7 +202,7 @@ class Checker {
       if (page.decodedBytes > mostDecoded)
         return wrongPage(i, fmt::format("at most {} decoded bytes", mostDecoded), fmt::format("{}", page.decodedBytes));
       FARCELL_TRY(owner(i, groupCount));
-      offset = alignedUp(offset + page.storedBytes);
+      offset += page.storedBytes;
     }
     if (offset != directoryOffset_)
       return corrupt(path_, directoryOffset_, "pages up to the directory", fmt::format("up to {}", offset));

@@ -11,7 +11,7 @@
 
 namespace farcell {
 
-// Stored bytes of pages by kind, padding not counted.
+// Stored bytes of pages by kind.
 struct PageBytes {
   uint64_t views = 0;
   uint64_t geometry = 0;

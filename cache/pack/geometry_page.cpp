@@ -82,8 +82,10 @@ Result<GeometryPage> decodePayload(std::span<const std::byte> payload, const Hea
   FARCELL_ASSIGN(const size_t corners, cornerCount(triangleCodes));
   const std::vector<uint32_t> cornerCodes = readPlanes(in, corners);
   if (!in.ok()) return fail(ErrorKind::corrupt, "expected {} corners, found too few bytes", corners);
-  FARCELL_ASSIGN(page.indices, decodedTriangles(triangleCodes, cornerCodes, header.vertexCount));
-  FARCELL_ASSIGN(const std::vector<uint32_t> components, readSequences(in, header.vertexCount, 3, Lanes::one));
+  FARCELL_ASSIGN(DecodedTriangles triangles, decodedTriangles(triangleCodes, cornerCodes, header.vertexCount));
+  page.indices = std::move(triangles.indices);
+  FARCELL_ASSIGN(const std::vector<uint32_t> components,
+                 readSequences(in, header.vertexCount, 3, Lanes::one, triangles.parallelograms));
   FARCELL_ASSIGN(page.positions, positionsOf(components, maxCoordinate));
   if ((header.flags & kHasColours) != 0) {
     FARCELL_ASSIGN(page.colours, readSequences(in, header.vertexCount, 1, Lanes::four));
@@ -112,7 +114,8 @@ std::vector<std::byte> encodeGeometryPage(const GeometryPage& page) {
   const ConnectivityCodes codes = codedTriangles(page.indices);
   payload.append(std::as_bytes(std::span(codes.triangles)));
   writePlanes(payload, codes.corners);
-  writeSequences(payload, componentsOf(page.positions), 3, Lanes::one);
+  writeSequences(payload, componentsOf(page.positions), 3, Lanes::one,
+                 parallelogramsOf(page.indices, page.positions.size()));
   if (!page.colours.empty()) writeSequences(payload, page.colours, 1, Lanes::four);
   if (!page.normals.empty()) writeSequences(payload, page.normals, 1, Lanes::two);
   FARCELL_CHECK(payload.bytes.size() <= UINT32_MAX);

@@ -30,10 +30,6 @@ Result<> checkSum(std::span<const std::byte> bytes, uint64_t expected, uint64_t 
 
 }  // namespace
 
-static_assert(kHeaderBytes % kPageAlignment == 0);
-
-uint64_t alignedUp(uint64_t offset) { return (offset + kPageAlignment - 1) / kPageAlignment * kPageAlignment; }
-
 std::vector<std::byte> encodeHeader() {
   ByteWriter out;
   out.append(std::as_bytes(std::span(kHeaderMagic)));
@@ -80,9 +76,8 @@ Result<Footer> decodeFooter(std::span<const std::byte> bytes, uint64_t fileBytes
   FARCELL_TRY(checkSum(summed, in.u64(), start, path));
   if (footer.fileBytes != fileBytes)
     return corrupt(path, start + 40, fmt::format("a file of {} bytes", footer.fileBytes), fmt::format("{}", fileBytes));
-  if (footer.directoryOffset < kHeaderBytes || footer.directoryOffset > start ||
-      footer.directoryOffset % kPageAlignment != 0)
-    return corrupt(path, start, fmt::format("a directory at a multiple of {} up to {}", kPageAlignment, start),
+  if (footer.directoryOffset < kHeaderBytes || footer.directoryOffset > start)
+    return corrupt(path, start, fmt::format("a directory from {} to {}", kHeaderBytes, start),
                    fmt::format("{}", footer.directoryOffset));
   if (footer.directoryBytes != start - footer.directoryOffset)
     return corrupt(path, start + 8, fmt::format("a directory of {} bytes", start - footer.directoryOffset),

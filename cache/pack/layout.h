@@ -12,8 +12,7 @@
 
 namespace farcell {
 
-// The header fills one alignment unit, so that the first page is aligned.
-inline constexpr uint64_t kHeaderBytes = 4096;
+inline constexpr uint64_t kHeaderBytes = 32;
 inline constexpr uint64_t kFooterBytes = 80;
 inline constexpr std::array<char, 8> kHeaderMagic = {'\x89', 'F', 'A', 'R', '\r', '\n', '\x1a', '\n'};
 inline constexpr std::array<char, 8> kFooterMagic = {'\x89', 'R', 'A', 'F', '\r', '\n', '\x1a', '\n'};
@@ -32,10 +31,7 @@ std::vector<std::byte> encodeFooter(const Footer& footer);
 
 // Both name `path` in their errors. unsupported for another version, else corrupt.
 Result<> checkHeader(std::span<const std::byte> bytes, const std::string& path);
-// Checks the directory's place too: it starts aligned and ends where the footer begins.
+// Checks the directory's place too: it ends where the footer begins.
 Result<Footer> decodeFooter(std::span<const std::byte> bytes, uint64_t fileBytes, const std::string& path);
-
-// The next multiple of kPageAlignment.
-uint64_t alignedUp(uint64_t offset);
 
 }  // namespace farcell

@@ -93,18 +93,14 @@ Result<PackFile> PackFile::open(const std::filesystem::path& path) {
   return PackFile(std::move(file), std::move(directory), std::move(viewpoints));
 }
 
-// The stored bytes and their padding, whose checksum is right.
+// The stored bytes, whose checksum is right.
 Result<std::vector<std::byte>> PackFile::readPage(uint32_t page, PageKind kind) const {
   FARCELL_CHECK(page < directory_.pages.size() && directory_.pages[page].kind == kind);
   const PageRecord& record = directory_.pages[page];
-  FARCELL_ASSIGN(std::vector<std::byte> bytes, readBytes(file_, record.offsetBytes, alignedUp(record.storedBytes)));
+  FARCELL_ASSIGN(std::vector<std::byte> bytes, readBytes(file_, record.offsetBytes, record.storedBytes));
   const uint64_t checksum = hashBytes(bytes);
   if (checksum != record.checksum)
     return inPage(*this, page, fmt::format("expected checksum {:016x}, found {:016x}", record.checksum, checksum));
-  const auto padding = bytes.begin() + record.storedBytes;
-  if (std::any_of(padding, bytes.end(), [](std::byte b) { return b != std::byte{0}; }))
-    return inPage(*this, page, "expected padding of 0, found others");
-  bytes.resize(record.storedBytes);
   return bytes;
 }
 

@@ -16,7 +16,6 @@
 
 namespace farcell {
 
-inline constexpr uint64_t kPageAlignment = 4096;
 inline constexpr uint32_t kPackVersion = 0;
 
 // Appends pages, then the directory; the file appears under its name at `finish`, whole and synced.
@@ -59,7 +58,7 @@ class PackFile {
   Result<GeometryPage> readGeometry(uint32_t page) const;
   Result<ViewPage> readViews(uint32_t page) const;
 
-  // Every byte of the file: header, footer and directory once more, all checksums, all pages decoded, padding zero,
+  // Every byte of the file: header, footer and directory once more, all checksums, all pages decoded,
   // cells and pages consistent with content. Returns one Error per finding, at most maxFindings. `progress` may be
   // empty. An interrupt (base/interrupt.h) ends it with an Error of kind cancelled.
   std::vector<Error> verify(size_t maxFindings, const std::function<void(uint64_t pagesDone)>& progress) const;

@@ -31,13 +31,8 @@ Result<uint32_t> PackWriter::add(PageKind kind, uint32_t cell, uint32_t group, u
                                  std::span<const std::byte> stored) {
   FARCELL_CHECK(!stored.empty() && stored.size() <= UINT32_MAX);
   PageRecord page{kind, cell, group, file_.sizeBytes(), static_cast<uint32_t>(stored.size()), decodedBytes, 0};
-  const std::vector<std::byte> padding(alignedUp(stored.size()) - stored.size());
-  Hasher hasher;
-  hasher.add(stored);
-  hasher.add(padding);
-  page.checksum = hasher.value();
+  page.checksum = hashBytes(stored);
   FARCELL_TRY(file_.append(stored));
-  FARCELL_TRY(file_.append(padding));
   pages_.push_back(page);
   return static_cast<uint32_t>(pages_.size() - 1);
 }

@@ -1,6 +1,5 @@
 // The coding of a page of views; FORMAT.md, "Page of views".
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -142,42 +141,8 @@ Result<std::vector<ViewHeader>> readHeaders(std::span<const std::byte> bytes, co
   return headers;
 }
 
-struct DeflatedView {
-  std::vector<std::byte> stream;
-  ViewCoding coding = 0;
-};
-
-// Whether half of the covered texels have a colour met before: then texels beat planes or lose by a percent, which is
-// not worth deflating twice.
-bool mostlyRepeats(const ViewImage& view) {
-  constexpr uint32_t kSlotBits = 12;
-  std::array<uint32_t, 1u << kSlotBits> seen{};
-  size_t covered = 0;
-  size_t repeated = 0;
-  for (size_t i = 0; i < view.rgba.size(); i += 4) {
-    uint32_t colour = 0;
-    for (size_t k = 0; k < 4; ++k) colour |= uint32_t{view.rgba[i + k]} << (8 * k);
-    if (colour == 0) continue;
-    uint32_t& slot = seen[colour * 0x9e3779b1u >> (32 - kSlotBits)];
-    ++covered;
-    if (std::exchange(slot, colour) == colour) ++repeated;
-  }
-  return 2 * repeated >= covered;
-}
-
-DeflatedView smallerArrangement(const ViewImage& view, uint32_t planeCount) {
-  DeflatedView best;
-  for (const Arrangement arrangement : {Arrangement::texels, Arrangement::planes}) {
-    if (arrangement == Arrangement::planes && mostlyRepeats(view)) break;
-    const ArrangedView arranged = arrangedFromView(view, planeCount, arrangement);
-    std::vector<std::byte> stream = zlibCompress(arranged.bytes, kViewZlibLevel);
-    if (best.stream.empty() || stream.size() < best.stream.size()) best = {std::move(stream), arranged.coding};
-  }
-  return best;
-}
-
 Result<ViewImage> decodeStream(std::span<const std::byte> stream, const EncodedView& header,
-                               std::vector<std::byte>& planes) {
+                               std::vector<std::byte>& arranged) {
   ViewImage image{.view = header.view,
                   .x0 = header.x0,
                   .y0 = header.y0,
@@ -189,9 +154,10 @@ Result<ViewImage> decodeStream(std::span<const std::byte> stream, const EncodedV
                   .depth = {},
                   .normal = {}};
   if (header.decodedBytes == 0) return image;
-  planes.resize(header.decodedBytes);
-  FARCELL_TRY(zlibDecompress(stream, planes));
-  viewFromArranged(planes, planeCountOf(header), header.coding, image);
+  const uint32_t planeCount = planeCountOf(header);
+  arranged.resize(arrangedBytesLimit(planeCount, texelsOf(header)));
+  FARCELL_ASSIGN(const size_t used, zlibDecompressUpTo(stream, arranged));
+  FARCELL_TRY(viewFromArranged(std::span(arranged).first(used), planeCount, header.coding, image));
   return image;
 }
 
@@ -233,9 +199,13 @@ EncodedView encodeView(const ViewImage& image) {
   const uint64_t decodedBytes = planeCount * texelsOf(encoded);
   FARCELL_CHECK(decodedBytes <= UINT32_MAX);
   encoded.decodedBytes = static_cast<uint32_t>(decodedBytes);
-  DeflatedView deflated = smallerArrangement(image, planeCount);
-  encoded.coding = deflated.coding;
-  encoded.stream = std::move(deflated.stream);
+  for (const Arrangement arrangement : {Arrangement::sparse, Arrangement::plain}) {
+    const ArrangedView arranged = arrangedFromView(image, planeCount, arrangement);
+    encoded.coding = arranged.coding;
+    encoded.stream = zlibCompress(arranged.bytes, kViewZlibLevel);
+    // A reader believes no more of a sparse view than a plain stream of its size could hold.
+    if (decodedBytes <= kMaxZlibRatio * encoded.stream.size()) break;
+  }
   return encoded;
 }
 
@@ -295,10 +265,10 @@ Result<std::vector<EncodedView>> viewsOfPage(std::span<const std::byte> bytes, c
 Result<ViewPage> decodeViewPage(std::span<const std::byte> bytes, const ViewLimits& limits) {
   FARCELL_ASSIGN(const std::vector<ViewHeader> headers, readHeaders(bytes, limits));
   ViewPage page;
-  std::vector<std::byte> planes;
+  std::vector<std::byte> arranged;
   for (const ViewHeader& header : headers) {
     const auto stream = bytes.subspan(header.stream.begin, header.stream.bytes);
-    Result<ViewImage> image = decodeStream(stream, header.view, planes);
+    Result<ViewImage> image = decodeStream(stream, header.view, arranged);
     if (!image) return fail(ErrorKind::corrupt, "byte {} of the page: {}", header.stream.begin, image.error().message);
     page.views.push_back(*std::move(image));
   }

@@ -1,9 +1,7 @@
 // One view as bytes that deflate well. The transforms are exact: nothing is lost.
 //
-// Colour is taken as G, R - G, B - G, A (modulo 256), which is small where a surface is grey or alike. A prefiltered
-// view of flat faces repeats whole texels, and a view of a textured or curved surface varies smoothly: the first
-// deflates best as texels, the second as filtered planes, so there are two arrangements and the encoder keeps the
-// smaller.
+// Colour follows coverage: it is coded where coverage is not 0, and predicted through it. Where a surface has one
+// colour and is lit differently, red and blue follow green by a factor; else they follow it by about 1.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +10,35 @@
 #include <vector>
 
 #include "cache/pack/pages.h"
+#include "cache/pack/plane_filter.h"
 
 namespace farcell {
 
-// Planes in the order they are stored: G, R - G, B - G, A, depth, and with normals x, y.
-inline constexpr uint32_t kColourPlanes = 4;
+// Planes in the order they are stored: A, G, R, B, depth, and with normals x, y.
 inline constexpr uint32_t kPlanesWithoutNormals = 5;
 inline constexpr uint32_t kPlanesWithNormals = 7;
 
-// What is subtracted (modulo 256) from each texel of a plane; texels outside the rectangle count as 0.
-enum class PlaneFilter : uint8_t { none = 0, up = 1, left = 2, average = 3 };
-inline constexpr uint32_t kPlaneFilterCount = 4;
-
-// texels: the four colour bytes of each texel together, unfiltered, then the other planes, filtered.
-// planes: all planes one after the other, filtered.
-enum class Arrangement : uint8_t { texels = 0, planes = 1 };
+// plain: every texel of every plane. sparse: without the texels that coverage says are 0, and planes may be constant.
+enum class Arrangement : uint8_t { plain = 0, sparse = 1 };
 
 // How a view's bytes were made, as stored: 4 bits a plane name its filter, the first plane lowest, and the top 4 bits
 // the arrangement.
 using ViewCoding = uint32_t;
 bool codingValid(ViewCoding coding, uint32_t planeCount);
 
+// The most bytes that a view of so many texels takes, arranged.
+constexpr size_t arrangedBytesLimit(uint32_t planeCount, size_t texels) { return 2 + planeCount * texels; }
+
 struct ArrangedView {
-  std::vector<std::byte> bytes;  // planeCount * width * height
+  std::vector<std::byte> bytes;
   ViewCoding coding = 0;
 };
 
-// Chooses a filter for each plane. REQUIRES: sizes of rgba, depth and normal agree with width * height.
-ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement arrangement);
+// Chooses a filter for each plane. A view with values where a sparse one has none is arranged plainly.
+// REQUIRES: sizes of rgba, depth and normal agree with width * height.
+ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted);
 
-// Fills view.rgba, depth and normal. REQUIRES: bytes.size() == planeCount * width * height, codingValid().
-void viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount, ViewCoding coding, ViewImage& view);
+// Fills view.rgba, depth and normal. corrupt when there are too few or too many bytes. REQUIRES: codingValid().
+Result<> viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount, ViewCoding coding, ViewImage& view);
 
 }  // namespace farcell

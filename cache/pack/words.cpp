@@ -31,6 +31,15 @@ uint32_t undoneDifference(uint32_t code, uint32_t before, Lanes lanes) {
   });
 }
 
+// What word `i` of a sequence is expected to be, from those before it.
+uint32_t expectedWord(std::span<const uint32_t> sequence, size_t i, std::span<const Parallelogram> parallelograms) {
+  if (!parallelograms.empty() && parallelograms[i].from != Parallelogram::kNoWord) {
+    const Parallelogram& known = parallelograms[i];
+    return sequence[known.from] + sequence[known.to] - sequence[known.opposite];
+  }
+  return i > 0 ? sequence[i - 1] : 0;
+}
+
 // Where each word was last seen. A slot holds one word: two that share it hide each other, which costs bytes only.
 class LastSeen {
  public:
@@ -63,7 +72,8 @@ std::vector<uint32_t> readPlanes(ByteReader& in, size_t count) {
   return words;
 }
 
-void writeSequences(ByteWriter& out, std::span<const uint32_t> words, size_t sequences, Lanes lanes) {
+void writeSequences(ByteWriter& out, std::span<const uint32_t> words, size_t sequences, Lanes lanes,
+                    std::span<const Parallelogram> parallelograms) {
   FARCELL_CHECK(words.size() % sequences == 0);
   const size_t length = words.size() / sequences;
   std::vector<uint32_t> differences;
@@ -73,13 +83,14 @@ void writeSequences(ByteWriter& out, std::span<const uint32_t> words, size_t seq
     for (size_t i = 0; i < length; ++i) {
       const uint8_t distance = seen.distance(part, i);
       out.u8(distance);
-      if (distance == 0) differences.push_back(codedDifference(part[i], i > 0 ? part[i - 1] : 0, lanes));
+      if (distance == 0) differences.push_back(codedDifference(part[i], expectedWord(part, i, parallelograms), lanes));
     }
   }
   writePlanes(out, differences);
 }
 
-Result<std::vector<uint32_t>> readSequences(ByteReader& in, size_t length, size_t sequences, Lanes lanes) {
+Result<std::vector<uint32_t>> readSequences(ByteReader& in, size_t length, size_t sequences, Lanes lanes,
+                                            std::span<const Parallelogram> parallelograms) {
   const std::span<const std::byte> distances = in.take(length * sequences);
   const auto differenceCount = static_cast<size_t>(std::count(distances.begin(), distances.end(), std::byte{0}));
   const std::vector<uint32_t> differences = readPlanes(in, differenceCount);
@@ -92,8 +103,12 @@ Result<std::vector<uint32_t>> readSequences(ByteReader& in, size_t length, size_
     const auto distance = std::to_integer<size_t>(distances[at]);
     if (distance > i)
       return fail(ErrorKind::corrupt, "word {}: expected a distance up to {}, found {}", i, i, distance);
-    words[at] =
-        distance > 0 ? words[at - distance] : undoneDifference(differences[used++], i > 0 ? words[at - 1] : 0, lanes);
+    if (distance > 0) {
+      words[at] = words[at - distance];
+      continue;
+    }
+    const uint32_t expected = expectedWord(std::span(words).subspan(at - i, i), i, parallelograms);
+    words[at] = undoneDifference(differences[used++], expected, lanes);
   }
   return words;
 }

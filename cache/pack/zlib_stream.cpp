@@ -46,19 +46,24 @@ std::vector<std::byte> zlibCompress(std::span<const std::byte> raw, int level) {
   return stream;
 }
 
-Result<> zlibDecompress(std::span<const std::byte> stream, std::span<std::byte> raw) {
+Result<size_t> zlibDecompressUpTo(std::span<const std::byte> stream, std::span<std::byte> raw) {
   size_t streamUsed = 0;
   size_t rawFilled = 0;
   const libdeflate_result result = libdeflate_zlib_decompress_ex(decompressor(), stream.data(), stream.size(),
                                                                  raw.data(), raw.size(), &streamUsed, &rawFilled);
   if (result != LIBDEFLATE_SUCCESS)
-    return fail(ErrorKind::corrupt, "expected a zlib stream of {} bytes, found {}", raw.size(),
+    return fail(ErrorKind::corrupt, "expected a zlib stream of at most {} bytes, found {}", raw.size(),
                 result == LIBDEFLATE_INSUFFICIENT_SPACE ? "a longer one" : "a damaged one");
-  if (rawFilled != raw.size())
-    return fail(ErrorKind::corrupt, "expected a zlib stream of {} bytes, found one of {}", raw.size(), rawFilled);
   if (streamUsed != stream.size())
     return fail(ErrorKind::corrupt, "expected a zlib stream stored in {} bytes, found one of {}", stream.size(),
                 streamUsed);
+  return rawFilled;
+}
+
+Result<> zlibDecompress(std::span<const std::byte> stream, std::span<std::byte> raw) {
+  FARCELL_ASSIGN(const size_t filled, zlibDecompressUpTo(stream, raw));
+  if (filled != raw.size())
+    return fail(ErrorKind::corrupt, "expected a zlib stream of {} bytes, found one of {}", raw.size(), filled);
   return {};
 }
 

@@ -18,5 +18,7 @@ std::vector<std::byte> zlibCompress(std::span<const std::byte> raw, int level);
 
 // Fills `raw` exactly from the whole of `stream`; corrupt when the stream is damaged, shorter or longer.
 Result<> zlibDecompress(std::span<const std::byte> stream, std::span<std::byte> raw);
+// The same for a stream that may be shorter than `raw`: how many bytes it held.
+Result<size_t> zlibDecompressUpTo(std::span<const std::byte> stream, std::span<std::byte> raw);
 
 }  // namespace farcell

@@ -21,8 +21,8 @@ constexpr uint64_t kDirectoryAllowance = 8192;
 constexpr std::array<const char*, kViewFates> kFateNames = {
     "kept", "empty", "notVisitable", "sameAsChild", "cheaperAsTriangles", "costsMoreThanItBrings", "packBudget"};
 
-// A page in the file, with its padding and its record.
-uint64_t pageCost(uint64_t storedBytes) { return alignedUp(storedBytes) + kPageRecordBytes; }
+// A page in the file, with its record.
+uint64_t pageCost(uint64_t storedBytes) { return storedBytes + kPageRecordBytes; }
 
 // What the views of one cell are, together.
 struct CellViews {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <array>
+#include <map>
+
 #include <algorithm>
 #include <array>
 
@@ -51,7 +54,7 @@ class PlainDecoder {
     const size_t vertices = word(page_, 0), triangles = word(page_, 4), flags = word(page_, 8);
     GeometryPage result;
     result.indices = indices(triangles);
-    const std::vector<uint32_t> components = sequences(3, vertices, 32);
+    const std::vector<uint32_t> components = sequences(3, vertices, 32, true);
     for (size_t i = 0; i < vertices; ++i)
       result.positions.emplace_back(components[i], components[vertices + i], components[2 * vertices + i]);
     if (flags & 1) result.colours = sequences(1, vertices, 8);
@@ -80,27 +83,27 @@ class PlainDecoder {
       corners += codes.back() == 48 ? 3 : 1;
     }
     const std::vector<uint32_t> differences = planes(corners);
-    std::vector<std::pair<uint32_t, uint32_t>> edges;  // newest last
+    std::vector<std::array<uint32_t, 3>> edges;  // from, to, and the vertex across; newest last
     int64_t next = 0;
     size_t used = 0;
     for (const uint32_t code : codes) {
       std::vector<uint32_t> corner;
-      if (code < 48)
-        corner = {edges.at(edges.size() - 1 - code / 3).first, edges.at(edges.size() - 1 - code / 3).second};
+      if (code < 48) corner = {edges.at(edges.size() - 1 - code / 3)[0], edges.at(edges.size() - 1 - code / 3)[1]};
       while (corner.size() < 3) {
         corner.push_back(static_cast<uint32_t>(next - signedOf(differences.at(used++))));
+        if (code < 48 && corner.back() == next) across_[corner.back()] = edges.at(edges.size() - 1 - code / 3);
         next = std::max<int64_t>(next, int64_t{corner.back()} + 1);
       }
-      if (code == 48) edges.emplace_back(corner[1], corner[0]);
-      edges.emplace_back(corner[2], corner[1]);
-      edges.emplace_back(corner[0], corner[2]);
+      if (code == 48) edges.push_back({corner[1], corner[0], corner[2]});
+      edges.push_back({corner[2], corner[1], corner[0]});
+      edges.push_back({corner[0], corner[2], corner[1]});
       std::rotate(corner.begin(), corner.begin() + (code < 48 ? (3 - code % 3) % 3 : 0), corner.end());
       result.insert(result.end(), corner.begin(), corner.end());
     }
     return result;
   }
 
-  std::vector<uint32_t> sequences(size_t count, size_t length, uint32_t bits) {
+  std::vector<uint32_t> sequences(size_t count, size_t length, uint32_t bits, bool positions = false) {
     std::vector<uint32_t> distances, words;
     for (size_t i = 0; i < count * length; ++i) distances.push_back(byte());
     const auto literals = static_cast<size_t>(std::count(distances.begin(), distances.end(), 0u));
@@ -111,7 +114,13 @@ class PlainDecoder {
         words.push_back(words.at(i - distances[i]));
         continue;
       }
-      const uint32_t before = i % length == 0 ? 0 : words.back(), difference = differences.at(used++);
+      uint32_t before = i % length == 0 ? 0 : words.back();
+      if (const auto known = across_.find(static_cast<uint32_t>(i % length)); positions && known != across_.end()) {
+        const auto& [from, to, opposite] = known->second;
+        const size_t start = i - i % length;
+        before = words.at(start + from) + words.at(start + to) - words.at(start + opposite);
+      }
+      const uint32_t difference = differences.at(used++);
       uint64_t value = 0;
       for (uint32_t lane = 0; lane < 32; lane += bits) {
         const uint64_t size = uint64_t{1} << bits;
@@ -124,6 +133,7 @@ class PlainDecoder {
   }
 
   const Bytes& page_;
+  std::map<uint32_t, std::array<uint32_t, 3>> across_;  // of vertices: an edge and the vertex across it
   Bytes payload_;
   size_t at_ = 0;
 };

@@ -78,25 +78,27 @@ Bytes geometryPage() {
   return page.bytes;
 }
 
-// View 0: 2 x 2 texels as texels with depth filtered by the row below. View `second`: 2 x 1 as planes.
+// View 0: 3 x 1 texels, sparse: coverage 255, 0, 51. View `second`: 2 x 1, plain.
 Bytes viewPage(uint32_t second) {
+  // Red is half of green (64 / 128), blue as much (128 / 128). Coverage; green from the left: 100, then a fifth of it;
+  // red and blue where there is green; depth, near coverage is everywhere, one value.
   const Bytes first =
-      deflated(Text().raw({100, 5, 251, 255, 100, 5, 251, 255, 0, 0, 0, 0, 10, 0, 0, 20}).raw({50, 60, 1, 255}).bytes);
-  const Bytes other = deflated(Text().raw({7, 1, 0, 0, 0, 0, 255, 0, 9, 4}).bytes);
+      deflated(Text().raw({64, 128}).raw({255, 0, 51}).raw({100, 1}).raw({1, 255}).raw({0, 0}).raw({9}).bytes);
+  const Bytes other = deflated(Text().raw({128, 128}).raw({255, 0, 7, 1, 0, 0, 0, 0, 9, 4}).bytes);
   const uint64_t begin = 8 + 2 * 32;
   Text page;
   page.u32({2, 5});
-  page.u32({0}).number(3, 2).number(4, 2).number(2, 2).number(2, 2);
-  page.u32({kF32MinusOne, kF32One, 1u << 16, begin, first.size()});
-  // Filters: G left (2), R - G none, B - G none, A left (2), depth average (3); arrangement planes.
+  page.u32({0}).number(3, 2).number(4, 2).number(3, 2).number(1, 2);
+  page.u32({kF32MinusOne, kF32One, 0x10000000u | 2u << 4 | 5u << 16, begin, first.size()});
+  // Filters: A left (2), G left (2), R and B none, depth average (3).
   page.u32({second}).number(0, 2).number(0, 2).number(2, 2).number(1, 2);
-  page.u32({0, 0, 0x10000000u | 2u | 2u << 12 | 3u << 16, begin + first.size(), other.size()});
+  page.u32({0, 0, 2u | 2u << 4 | 3u << 16, begin + first.size(), other.size()});
   return page.append(first).append(other).bytes;
 }
 
 void appendPage(Text& pack, const Bytes& page, std::vector<std::pair<uint64_t, uint64_t>>& places) {
   const uint64_t offset = pack.bytes.size();
-  pack.append(page).zeros((4096 - page.size() % 4096) % 4096);
+  pack.append(page);
   places.emplace_back(offset, hashBytes(std::span(pack.bytes).subspan(offset)));
 }
 
@@ -107,7 +109,7 @@ Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
   Text text;
   text.u64({0, 0, 0, kF64One}).u32({16, 2}).u32({0, 0, 0, 4, 4, 0}).append(settings());
   text.string("hand.ply");
-  text.u64({2, 4, 42, 2, views.size(), 30, geometry.size()});
+  text.u64({2, 4, 42, 2, views.size(), 25, geometry.size()});
   text.u32({1}).string("zeroArea").u64({9});
   text.u32({0});
   text.u32({0});
@@ -115,13 +117,13 @@ Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
   text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1, 1}).u32({0, 0, 0, 4, 4, 0}).u64({2, 2, 0});
   text.u32({2});
   text.u32({1, 0, 0, geometry.size(), 4 * (4 * 4 + 6), 0}).u64({places[0].first, places[0].second});
-  text.u32({2, 0, group, views.size(), 5 * 6, 0}).u64({places[1].first, places[1].second});
+  text.u32({2, 0, group, views.size(), 5 * 5, 0}).u64({places[1].first, places[1].second});
   return text.bytes;
 }
 
 Bytes handMadePack(uint32_t group, uint32_t secondView) {
   Text pack;
-  pack.raw({0x89, 'F', 'A', 'R', '\r', '\n', 0x1a, '\n'}).u32({0}).zeros(4076);
+  pack.raw({0x89, 'F', 'A', 'R', '\r', '\n', 0x1a, '\n'}).u32({0}).zeros(12);
   pack.u64({hashBytes(pack.bytes)});
   std::vector<std::pair<uint64_t, uint64_t>> places;
   const Bytes geometry = geometryPage(), views = viewPage(secondView);
@@ -165,12 +167,12 @@ TEST(HandMadePack, IsReadAsFormatMdSays) {
   views.views[0] = {.view = 0,
                     .x0 = 3,
                     .y0 = 4,
-                    .width = 2,
-                    .height = 2,
+                    .width = 3,
+                    .height = 1,
                     .depthMin = -1,
                     .depthMax = 1,
-                    .rgba = {105, 100, 95, 255, 105, 100, 95, 255, 0, 0, 0, 0, 10, 10, 10, 20},
-                    .depth = {50, 60, 51, 59},
+                    .rgba = {51, 100, 100, 255, 0, 0, 0, 0, 10, 21, 21, 51},
+                    .depth = {9, 9, 9},
                     .normal = {}};
   views.views[1] = {.view = second,
                     .width = 2,

@@ -125,13 +125,16 @@ TEST(FarcellVerify, PrintsALineForEachFindingAndFails) {
   const TemporaryFile file("damaged.far");
   samples::write(samples::fullPack(), file.path());
   samples::Bytes bytes = samples::readAll(file.path());
-  for (const size_t offset : {size_t{4096}, size_t{3 * 4096 + 4000}}) bytes.at(offset) ^= std::byte{1};
+  const std::vector<PageRecord> pages = PackFile::open(file.path())->directory().pages;
+  for (const size_t offset : {pages[0].offsetBytes, pages[3].offsetBytes - 1}) bytes.at(offset) ^= std::byte{1};
   samples::writeAll(file.path(), bytes);
   const Outcome outcome = run("farcell-verify", file.path().string());
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_NE(outcome.err.find(": offset 4096: page 0: expected checksum "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find(": offset 12288: page 2: expected checksum "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(": offset 32: page 0: expected checksum "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(fmt::format(": offset {}: page 2: expected checksum ", pages[2].offsetBytes)),
+            std::string::npos)
+      << outcome.err;
   const Json json = Json::parse(run("farcell-verify", "--json " + file.path().string()).out);
   EXPECT_EQ(json["valid"], false);
   EXPECT_EQ(json["findings"].size(), 2u);

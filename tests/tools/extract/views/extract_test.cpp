@@ -203,9 +203,8 @@ TEST_F(ExtractTest, TheProgramSaysWhatItWroteAndHowItFailed) {
   const auto bytes = readTextFile(pack, 1 << 26);
   ASSERT_TRUE(bytes);
   std::string broken = *bytes;
-  broken[4096 + 40] = static_cast<char>(broken[4096 + 40] ^ 1);
-  broken[2 * 4096 + 40] = static_cast<char>(broken[2 * 4096 + 40] ^ 1);
-  for (size_t at = 3 * 4096 + 40; at + 80 < broken.size(); at += 4096) broken[at] = static_cast<char>(broken[at] ^ 1);
+  for (const PageRecord& page : PackFile::open(pack)->directory().pages)
+    broken[page.offsetBytes] = static_cast<char>(broken[page.offsetBytes] ^ 1);
   ASSERT_TRUE(writeTextFile(directory_ / "broken.far", broken));
   EXPECT_EQ(run((directory_ / "broken.far").string() + out), 1);
 }
