@@ -115,6 +115,7 @@ Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, con
   const std::filesystem::path& scratch = options.scratchDirectory.empty() ? beside : options.scratchDirectory;
 
   BuildResult result;
+  result.files = reader->files();
   Directory& directory = result.directory;
   directory.sourceName = meshes[0].filename().string();
   FARCELL_ASSIGN(directory.sourceHash, sourceHash(*reader));
