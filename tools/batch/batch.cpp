@@ -76,7 +76,10 @@ std::string whyFailed(const ChildOutcome& child, const Listener& heard) {
 // record, and the next run builds again.
 Result<> keepRecord(const std::filesystem::path& path, const std::vector<std::string>& arguments, const Json& report,
                     const std::filesystem::path& pack, const Places& places, int64_t begunNs) {
-  BuildRecord record{FARCELL_VERSION, arguments, {}, {}, report.at("input").at("triangles").get<uint64_t>()};
+  BuildRecord record;
+  record.version = FARCELL_VERSION;
+  record.arguments = arguments;
+  record.triangles = report.at("input").at("triangles").get<uint64_t>();
   FARCELL_ASSIGN(record.pack, identityOf(pack));
   for (const Json& file : report.at("files")) {
     FARCELL_ASSIGN(FileIdentity identity, identityOf(places.list / file.get<std::string>()));

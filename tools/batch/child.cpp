@@ -7,11 +7,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include "cache/base/interrupt.h"
 
@@ -79,13 +81,12 @@ class Lines {
   std::string line_;
 };
 
-// What there is to read; false at its end.
-bool readSome(int& end, const std::function<void(std::string_view)>& sink) {
+// What there is to read; closed at its end.
+void readSome(int& end, const std::function<void(std::string_view)>& sink) {
   std::array<char, 1 << 16> buffer;
   const ssize_t count = ::read(end, buffer.data(), buffer.size());
   if (count > 0) sink({buffer.data(), static_cast<size_t>(count)});
   if (count == 0 || (count < 0 && errno != EINTR)) Pipe::close(end);
-  return end >= 0;
 }
 
 // Until the child has closed both.

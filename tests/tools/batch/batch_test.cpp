@@ -67,7 +67,7 @@ echo '{"input":{"triangles":5},"bytes":{"pack":5},"files":["'"$mesh"'"]}'
   void list(const std::vector<std::pair<std::string, std::string>>& sets, const std::string& options = "{}") const {
     Json json;
     for (const auto& [name, mesh] : sets)
-      json["datasets"].push_back({{"name", name}, {"meshes", {mesh}}, {"options", Json::parse(options)}});
+      json["datasets"].push_back({{"name", name}, {"meshes", Json::array({mesh})}, {"options", Json::parse(options)}});
     directory_.write("list.json", json.dump());
   }
 

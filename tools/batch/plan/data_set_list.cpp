@@ -37,10 +37,10 @@ Result<std::vector<std::string>> meshesOf(const SceneValue& value) {
   return meshes;
 }
 
+bool isOptionByte(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; }
+
 bool isOptionName(const std::string& name) {
-  return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), [](char c) {
-    return std::islower(c) != 0 || c == '-' || std::isdigit(c);
-  });
+  return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), isOptionByte);
 }
 
 Result<std::vector<std::string>> optionsOf(const SceneValue& value) {
