@@ -1,6 +1,9 @@
 #include "cache/base/process.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
 
 namespace farcell {
 namespace {
@@ -15,6 +18,13 @@ double seconds(const timeval& time) {
 }  // namespace
 
 uint64_t peakRssBytes() { return static_cast<uint64_t>(usage().ru_maxrss) * 1024; }
+
+uint64_t rssBytes() {
+  std::ifstream file("/proc/self/statm");
+  uint64_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+}
 
 double processCpuSeconds() {
   const rusage value = usage();

@@ -5,5 +5,6 @@
 
 namespace farcell {
 uint64_t peakRssBytes();
+uint64_t rssBytes();         // now
 double processCpuSeconds();  // user + system, all threads
 }  // namespace farcell

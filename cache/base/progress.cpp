@@ -1,20 +1,54 @@
 #include "cache/base/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
 
 namespace farcell {
 namespace {
-constexpr int64_t kPrintEveryMs = 200;
+constexpr int64_t kPrintEveryMs = 250;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+// Of the terminal; 80 where there is none.
+size_t columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+}
+
+void put(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
 }  // namespace
 
-Progress::Progress(bool enabled) : enabled_(enabled), terminal_(::isatty(STDERR_FILENO) == 1) {}
+std::optional<ProgressForm> progressFormNamed(std::string_view name) {
+  if (name == "none") return ProgressForm::none;
+  if (name == "auto") return ProgressForm::automatic;
+  if (name == "bar") return ProgressForm::bar;
+  if (name == "json") return ProgressForm::json;
+  return std::nullopt;
+}
+
+Progress::Progress(ProgressForm form)
+    : form_(form == ProgressForm::automatic ? ProgressForm::bar : form),
+      lines_(form == ProgressForm::automatic && ::isatty(STDERR_FILENO) == 0) {}
+
+Progress::~Progress() {
+  if (barStands_) put("\n");
+  if (form_ == ProgressForm::json)
+    put(fmt::format("{{\"event\":\"done\",\"seconds\":{:.3f}}}\n", secondsSince(created_)));
+}
+
+void Progress::budget(const std::string& name, uint64_t limit, std::function<uint64_t()> used) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(budgets_, [&](const Budget& budget) { return budget.name == name; });
+  budgets_.push_back({name, limit, std::move(used)});
+}
 
 void Progress::begin(const std::string& stage, uint64_t total, const std::string& unit) {
   end();
@@ -26,42 +60,47 @@ void Progress::begin(const std::string& stage, uint64_t total, const std::string
   done_ = 0;
   nextPrintMs_ = kPrintEveryMs;
   start_ = std::chrono::steady_clock::now();
+  if (form_ == ProgressForm::json) print(Event::begin);
 }
 
 void Progress::advance(uint64_t units) {
-  const uint64_t done = done_.fetch_add(units) + units;
-  if (!enabled_) return;
-  const int64_t nowMs = static_cast<int64_t>(secondsSince(start_) * 1000);
+  done_.fetch_add(units);
+  if (form_ == ProgressForm::none) return;
+  const auto nowMs = static_cast<int64_t>(secondsSince(start_) * 1000);
   int64_t due = nextPrintMs_.load();
   if (nowMs < due || !nextPrintMs_.compare_exchange_strong(due, nowMs + kPrintEveryMs)) return;
   const std::lock_guard lock(mutex_);
-  print(done, false);
+  print(Event::advance);
 }
 
 void Progress::end() {
   const std::lock_guard lock(mutex_);
-  if (enabled_ && !stage_.empty()) print(done_.load(), true);
+  if (form_ != ProgressForm::none && !stage_.empty()) print(Event::end);
   stage_.clear();
 }
 
-void Progress::print(uint64_t done, bool last) {
-  const double seconds = secondsSince(start_);
-  const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1.0;
-  const int tenths = static_cast<int>(share * 10);
-  if (!terminal_ && !last && tenths <= tenthsPrinted_) return;
+void Progress::print(Event event) {
+  if (stage_.empty()) return;
+  const StageProgress stage{stage_, unit_, done_.load(), total_, secondsSince(start_)};
+  const auto tenths = static_cast<int>(stage.share() * 10);
+  if (lines_ && event == Event::advance && tenths <= tenthsPrinted_) return;
   tenthsPrinted_ = tenths;
-  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
-  std::string line =
-      fmt::format("{:<10} {:3.0f}% {:>12}/{} {}, {:.3g}/s", stage_, share * 100, done, total_, unit_, rate);
-  if (last)
-    line += fmt::format(", {:.1f} s", seconds);
-  else if (share > 0)
-    line += fmt::format(", {:.0f} s left", seconds * (1 - share) / share);
-  if (terminal_)
-    std::fputs(fmt::format("\r{:<78}{}", line, last ? "\n" : "").c_str(), stderr);
-  else
-    std::fputs((line + "\n").c_str(), stderr);
-  std::fflush(stderr);
+  put(textOf(event, stage));
+  barStands_ = form_ == ProgressForm::bar && !lines_ && event != Event::end;
+}
+
+std::string Progress::textOf(Event event, const StageProgress& stage) const {
+  std::vector<BudgetUse> budgets;
+  for (const Budget& budget : budgets_) budgets.push_back({budget.name, budget.used(), budget.limit});
+  const bool ended = event == Event::end;
+  if (form_ == ProgressForm::json) {
+    const std::string_view name = ended ? "end" : event == Event::begin ? "begin" : "advance";
+    return fmt::format("{}\n", progressJson(name, stage, budgets));
+  }
+  if (lines_) return fmt::format("{}\n", progressLine(stage, budgets, ended));
+  const size_t width = columns() - 1;
+  const std::string text = ended ? progressLine(stage, {}, true) : progressBar(stage, budgets, width);
+  return fmt::format("\r{:<{}}{}", text.substr(0, width), width, ended ? "\n" : "");
 }
 
 }  // namespace farcell

@@ -191,6 +191,7 @@ class Build {
     FARCELL_TRY(checkSettings(options_.settings));
     FARCELL_TRY(checkOutput());
     FARCELL_ASSIGN(reader_, openMeshes(meshes_));
+    result_.files = reader_->files();
     settings_ = options_.settings;
     if (options_.upOfModel) settings_.up = reader_->info().up;
     if (options_.unitOfModel) settings_.metresPerUnit = reader_->info().metresPerUnit;
@@ -299,14 +300,17 @@ class Build {
   Result<> assemble(const BuildContext& context) {
     Directory& directory = result_.directory;
     std::vector<uint32_t> geometryBytes(tree_.cells.size());
-    for (uint32_t cell = 0; cell < tree_.cells.size(); ++cell)
-      if (store_->hasMesh(cell)) geometryBytes[cell] = store_->meshFigures(cell).bytes;
+    for (uint32_t cell = 0; cell < tree_.cells.size(); ++cell) {
+      const MeshFigures mesh = store_->meshFigures(cell);
+      directory.cells[cell].meshTriangles = mesh.triangles;
+      geometryBytes[cell] = mesh.bytes;
+    }
     const std::vector<ViewCost> views = store_->viewCosts();
     ChooseSettings settings;
     settings.rule = settings_.budgetRule;
     if (settings_.packBudgetBytes > 0) settings.packBudgetBytes = settings_.packBudgetBytes;
     FARCELL_ASSIGN(const Choice choice,
-                   chooseViews({context.viewpoints, tree_.cells, geometryBytes, views}, settings));
+                   chooseViews({context.viewpoints, directory.cells, geometryBytes, views}, settings));
     report(choice, views.size(), directory.report);
     FARCELL_ASSIGN(result_.packBytes, assemblePack(context, pack_, views, choice.views, directory, progress_));
     progress_.end();

@@ -49,6 +49,7 @@ struct BuildResult {
   uint64_t packBytes = 0;
   StageSeconds seconds;
   TextureReport textures;
+  std::vector<std::filesystem::path> files;  // that it was read from, see MeshReader
 };
 
 // Several meshes are one model; the pack's sourceName is the first one's. With a crew all processes call it alike, and

@@ -117,7 +117,7 @@ uint64_t Chooser::bytesWithoutViews() const {
   for (size_t cell = 0; cell < input_.cells.size(); ++cell) {
     if (input_.geometryBytes[cell] == 0) continue;
     const uint64_t morePages = input_.cells[cell].meshTriangles / kPartTriangles;
-    bytes += pageCost(input_.geometryBytes[cell]) + morePages * pageCost(kPageAlignment);
+    bytes += pageCost(input_.geometryBytes[cell]) + morePages * kPageRecordBytes;
   }
   return bytes;
 }

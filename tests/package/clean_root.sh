@@ -26,8 +26,8 @@ set -eux
 test ! -e /usr/bin/c++
 [ "$(farcell --version)" = "farcell $version" ]
 farcell --help
-for page in farcell farcell-generate farcell-build farcell-info farcell-verify farcell-render farcell-view farcell-extract \
-  farcell-evaluate; do
+for page in farcell farcell-generate farcell-build farcell-batch farcell-info farcell-verify farcell-render \
+  farcell-view farcell-extract farcell-evaluate; do
   man -w "$page"
 done
 MANPAGER=cat man farcell-build | grep -- '--leaf-triangles'

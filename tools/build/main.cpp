@@ -1,6 +1,7 @@
 // farcell build: a pack from mesh files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -9,6 +10,7 @@
 #include "preprocess/build/build.h"
 #include "tools/cli/cli.h"
 #include "tools/report/build_report_json.h"
+#include "tools/report/build_summary.h"
 
 namespace farcell {
 namespace {
@@ -21,7 +23,7 @@ struct Arguments {
   std::string up;
   std::string unit;
   bool json = false;
-  bool quiet = false;
+  ProgressForm progress = ProgressForm::automatic;
 };
 
 void addOptions(CLI::App& app, Arguments& arguments) {
@@ -65,7 +67,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
          "textures; default: where the pack goes")
       ->type_name("DIR");
   app.add_flag("--json", arguments.json, "print the report as JSON on stdout");
-  app.add_flag("--quiet", arguments.quiet, "no progress on stderr");
+  addProgressOption(app, arguments.progress);
 }
 
 // Empty: what the model says.
@@ -88,29 +90,47 @@ Result<> parseUnit(const std::string& text, BuildOptions& options) {
   return {};
 }
 
-void printSummary(const BuildResult& result) {
+// Both by reason.
+void addLeftOut(BuildSummary& summary, const BuildReport& report) {
+  for (const auto& [reason, count] : report.viewsLeftOut) summary.leftOut.push_back({"views", reason, count, {}});
+  for (const auto& [reason, count] : report.skipped) summary.leftOut.push_back({"triangles", reason, count, {}});
+}
+
+BuildSummary summaryOf(const BuildResult& result) {
   const Directory& directory = result.directory;
   const BuildReport& report = directory.report;
-  const auto leaves = std::count_if(directory.cells.begin(), directory.cells.end(),
-                                    [](const CellRecord& cell) { return cell.childCount == 0; });
-  fmt::print(
-      "triangles {} (skipped {}), cells {} + {} inner, views {} of {} kept\n", report.inputTriangles,
-      [&] {
-        uint64_t sum = 0;
-        for (const auto& [reason, count] : report.skipped) sum += count;
-        return sum;
-      }(),
-      leaves, directory.cells.size() - static_cast<size_t>(leaves), report.viewsKept, report.viewsBaked);
-  fmt::print("pack {:.1f} MB: impostors {:.1f} (raw {:.1f}), geometry {:.1f}; {:.1f} s, peak memory {:.0f} MB\n",
-             static_cast<double>(result.packBytes) * 1e-6, static_cast<double>(report.impostorBytes) * 1e-6,
-             static_cast<double>(report.impostorRawBytes) * 1e-6, static_cast<double>(report.geometryBytes) * 1e-6,
-             result.seconds.total, static_cast<double>(peakRssBytes()) * 1e-6);
+  const StageSeconds& seconds = result.seconds;
+  BuildSummary summary;
+  summary.triangles = report.inputTriangles;
+  summary.leaves = static_cast<uint64_t>(std::count_if(directory.cells.begin(), directory.cells.end(),
+                                                       [](const CellRecord& cell) { return cell.childCount == 0; }));
+  summary.innerCells = directory.cells.size() - summary.leaves;
+  summary.viewsKept = report.viewsKept;
+  summary.viewsBaked = report.viewsBaked;
+  summary.stages = {{"read", seconds.read, {}, report.inputTriangles, "triangles", {}},
+                    {"partition", seconds.partition, {}, report.inputTriangles, "triangles", {}},
+                    {"lod", seconds.lod, {}, 0, "", {}},
+                    {"bake", seconds.bake, {}, report.viewsBaked, "views", {}},
+                    {"encode", seconds.encode, {}, report.viewsKept, "views", report.impostorBytes}};
+  summary.seconds = seconds.total;
+  summary.cpuSeconds = processCpuSeconds();
+  summary.parts = {{"geometry", report.geometryBytes}, {"impostors", report.impostorBytes}};
+  summary.packBytes = result.packBytes;
+  summary.peakRssBytes = peakRssBytes();
+  addLeftOut(summary, report);
+  return summary;
 }
 
 nlohmann::ordered_json texturesJson(const TextureReport& textures) {
   nlohmann::ordered_json leftOut = nlohmann::ordered_json::array();
   for (const Error& error : textures.leftOut) leftOut.push_back(error.message);
   return {{"read", textures.read}, {"leftOut", leftOut}};
+}
+
+nlohmann::ordered_json filesJson(const std::vector<std::filesystem::path>& files) {
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const std::filesystem::path& file : files) names.push_back(file.string());
+  return names;
 }
 
 // Not an error: the pack is whole, if less colourful.
@@ -128,11 +148,12 @@ Result<> run(Arguments& arguments) {
   settings.leafTriangles = static_cast<int>(std::min<uint64_t>(leafTriangles, INT32_MAX));
   chooseUp(arguments.up, arguments.options);
   FARCELL_TRY(parseUnit(arguments.unit, arguments.options));
-  Progress progress(!arguments.quiet);
+  Progress progress(arguments.progress);
+  progress.budget("memory", 0, rssBytes);
   FARCELL_ASSIGN(const BuildResult result, buildPack(arguments.meshes, arguments.pack, arguments.options, progress));
   warnOfTextures(result.textures.leftOut);
   if (!arguments.json) {
-    printSummary(result);
+    std::fputs(buildSummaryText(summaryOf(result)).c_str(), stdout);
     return {};
   }
   const StageSeconds& seconds = result.seconds;
@@ -140,6 +161,7 @@ Result<> run(Arguments& arguments) {
   const uint64_t peakRss = peakRssBytes();
   nlohmann::ordered_json report = buildReportJson(result.directory, result.packBytes, &times, &peakRss);
   report["textures"] = texturesJson(result.textures);
+  report["files"] = filesJson(result.files);
   std::fputs(jsonText(report).c_str(), stdout);
   return {};
 }
@@ -160,7 +182,12 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  farcell build city.ply -o city.far\n"
       "  farcell build statue.obj --unit mm --views 162 -o statue.far --json > report.json\n"
-      "  farcell build scene.json -o scene.far\n");
+      "  farcell build scene.json -o scene.far\n"
+      "Progress:\n"
+      "  --progress json   a line on stderr for each event, a few a second at most:\n"
+      "                    {\"event\": \"begin\", \"advance\" or \"end\", \"stage\", \"unit\", \"done\", \"total\",\n"
+      "                     \"seconds\", \"rate\", \"secondsLeft\", \"budgets\": [{\"name\", \"used\", \"limit\"}]},\n"
+      "                    budgets in bytes; at the end {\"event\": \"done\", \"seconds\"}\n");
   farcell::Arguments arguments;
   farcell::addOptions(app, arguments);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(arguments); });

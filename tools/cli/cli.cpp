@@ -93,6 +93,16 @@ int runProgram(CLI::App& app, int argc, char** argv, const std::function<Result<
   }
 }
 
+void addProgressOption(CLI::App& app, ProgressForm& form) {
+  app.add_option_function<std::string>(
+         "--progress", [&form](const std::string& name) { form = *progressFormNamed(name); },
+         "progress on stderr; auto: a bar on a terminal, else a line at each tenth; json: a line for each event")
+      ->check(CLI::IsMember({"none", "auto", "bar", "json"}))
+      ->default_str("auto");
+  app.add_flag_callback(
+      "--quiet", [&form] { form = ProgressForm::none; }, "no progress: --progress none");
+}
+
 Result<uint64_t> parseCount(const std::string& text) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "cache/base/progress.h"
 #include "cache/base/result.h"
 
 namespace farcell {
@@ -16,6 +17,9 @@ namespace farcell {
 // print takes the place of the work. `app` is named as its program is, "farcell-build". Exit codes: 0 success, 1
 // failed, 2 misused (also ErrorKind::invalidArgument). Errors go to stderr as "verb: message".
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<Result<>()>& work);
+
+// --progress none|auto|bar|json, and --quiet, which is short for none.
+void addProgressOption(CLI::App& app, ProgressForm& form);
 
 // "5M", "500k", "2G", "1234" -> a count (decimal factors). invalidArgument otherwise.
 Result<uint64_t> parseCount(const std::string& text);

@@ -147,7 +147,7 @@ Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_TRY(makeDirectory(options.output));
   FARCELL_TRY(writeTextFile(options.output / "cameras.json", cameraFileText(cameras)));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
-  Progress progress(true);
+  Progress progress(options.progress);
   FARCELL_ASSIGN(std::optional<MeshReference> mesh, loadMesh(options, pack.directory(), progress));
 
   std::vector<std::string> stems = cameraStems(cameras);

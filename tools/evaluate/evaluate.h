@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cache/base/progress.h"
 #include "cache/base/result.h"
 #include "runtime/selection/selection.h"
 #include "tools/evaluate/metrics/images.h"
@@ -30,6 +31,7 @@ struct EvaluateOptions {
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;
   Colour background = {179, 204, 230};
+  ProgressForm progress = ProgressForm::automatic;
   bool json = false;  // stdout: the report instead of a table
 };
 

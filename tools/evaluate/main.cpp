@@ -68,6 +68,7 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
   app.add_flag("--json", options.json, "print report.json instead of a table");
+  addProgressOption(app, options.progress);
   app.add_option("-o,--output", options.output,
                  "directory of the report, made when absent; its index.html opens in a browser")
       ->required()

@@ -39,6 +39,7 @@ void addSharedOptions(CLI::App& verb, GenerateOptions& options) {
       ->check(CLI::Range(0, 1024));
   verb.add_option("-o,--output", options.output, "mesh file to write (.ply)")->required();
   verb.add_flag("--json", options.json, "print counts as JSON on stdout");
+  addProgressOption(verb, options.progress);
 }
 
 CLI::App* addCityVerb(CLI::App& app, GenerateOptions& options) {
@@ -85,7 +86,7 @@ Result<nlohmann::ordered_json> generateCity(const GenerateOptions& options) {
   FARCELL_ASSIGN(settings.triangles, parseCount(options.triangles));
   settings.seed = options.seed;
   settings.threads = options.threads;
-  Progress progress(true);
+  Progress progress(options.progress);
   FARCELL_ASSIGN(const CityCounts counts, writeCity(settings, options.output, progress));
   return nlohmann::ordered_json{
       {"triangles", counts.triangles}, {"vertices", counts.vertices}, {"bytes", counts.bytes}};
@@ -99,7 +100,7 @@ Result<nlohmann::ordered_json> generateStatue(const StatueOptions& options) {
   settings.amplitude = options.amplitude;
   settings.roughness = options.roughness;
   FARCELL_ASSIGN(const BaseMesh base, options.from.empty() ? makeFigure(settings) : readBase(options.from));
-  Progress progress(true);
+  Progress progress(options.progress);
   FARCELL_ASSIGN(const StatueCounts counts, writeStatue(base, settings, options.output, progress));
   return nlohmann::ordered_json{{"triangles", counts.triangles},
                                 {"vertices", counts.vertices},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cache/base/progress.h"
 #include "cache/base/result.h"
 
 namespace farcell {
@@ -17,6 +18,7 @@ struct GenerateOptions {
   int threads = 0;
   std::string output;
   bool json = false;
+  ProgressForm progress = ProgressForm::automatic;
 };
 
 struct StatueOptions : GenerateOptions {
@@ -32,7 +34,7 @@ CLI::App* addStatueVerb(CLI::App& app, StatueOptions& options);
 Result<nlohmann::ordered_json> generateCity(const GenerateOptions& options);
 Result<nlohmann::ordered_json> generateStatue(const StatueOptions& options);
 
-// --seed, --threads, --output, --json.
+// --seed, --threads, --output, --json, --progress.
 void addSharedOptions(CLI::App& verb, GenerateOptions& options);
 
 }  // namespace farcell

@@ -17,7 +17,7 @@ struct Outcome {
 };
 
 // A pack that cannot be opened is a finding; a file that cannot be read is an error.
-Result<Outcome> verified(const std::string& path, size_t maxFindings) {
+Result<Outcome> verified(const std::string& path, size_t maxFindings, ProgressForm form) {
   Outcome outcome;
   const Result<PackFile> pack = PackFile::open(path);
   if (!pack) {
@@ -27,7 +27,7 @@ Result<Outcome> verified(const std::string& path, size_t maxFindings) {
   }
   outcome.pages = pack->directory().pages.size();
   outcome.sizeBytes = pack->sizeBytes();
-  Progress progress(true);
+  Progress progress(form);
   progress.begin("verify", outcome.pages, "pages");
   outcome.findings = pack->verify(maxFindings, [&](uint64_t) { progress.advance(); });
   progress.end();
@@ -45,8 +45,8 @@ std::string outcomeJson(const std::string& path, const Outcome& outcome) {
                    {"findings", findings}});
 }
 
-Result<> run(const std::string& path, size_t maxFindings, bool asJson) {
-  FARCELL_ASSIGN(const Outcome outcome, verified(path, maxFindings));
+Result<> run(const std::string& path, size_t maxFindings, bool asJson, ProgressForm form) {
+  FARCELL_ASSIGN(const Outcome outcome, verified(path, maxFindings, form));
   for (const Error& finding : outcome.findings) std::fprintf(stderr, "%s\n", finding.message.c_str());
   if (asJson) std::printf("%s\n", outcomeJson(path, outcome).c_str());
   if (!outcome.findings.empty())
@@ -77,5 +77,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   app.add_flag("--json", asJson, "print JSON on stdout");
-  return farcell::runProgram(app, argc, argv, [&] { return farcell::run(path, maxFindings, asJson); });
+  farcell::ProgressForm progress = farcell::ProgressForm::automatic;
+  farcell::addProgressOption(app, progress);
+  return farcell::runProgram(app, argc, argv, [&] { return farcell::run(path, maxFindings, asJson, progress); });
 }

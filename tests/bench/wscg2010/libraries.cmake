@@ -16,4 +16,5 @@ farcell_library(tests/bench/wscg2010/draw DEPS farcell_tests_bench_wscg2010_scen
                                           PRIVATE farcell_tests_bench_wscg2010_shaders)
 farcell_library(tests/bench/wscg2010/measure
                 DEPS farcell_tests_bench_wscg2010_draw farcell_tools_evaluate_reference farcell_tools_image
-                PRIVATE PkgConfig::webp PkgConfig::lzma ZLIB::ZLIB)
+                PRIVATE PkgConfig::webp PkgConfig::lzma ZLIB::ZLIB
+                APART errors.cpp image_store.cpp references.cpp)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -88,6 +89,55 @@ TEST(Progress, AdvancedByManyThreadsCountsEveryUnit) {
     progress.end();
   });
   EXPECT_NE(output.err.find("40000/40000 views"), std::string::npos) << output.err;
+}
+
+TEST(Progress, JsonIsALineForEachEventAndDoneComesLast) {
+  uint64_t asked = 0;
+  const Output output = captured([&] {
+    Progress progress(ProgressForm::json);
+    progress.budget("memory", 1, [] { return uint64_t{1}; });
+    progress.budget("memory", 1'000, [&] { return ++asked; });
+    progress.begin("read", 10, "triangles");
+    progress.advance(4);
+    progress.begin("bake", 2, "views");
+    progress.advance(2);
+    progress.end();
+  });
+  std::istringstream lines(output.err);
+  std::vector<std::string> heads;
+  for (std::string line; std::getline(lines, line); heads.push_back(line.substr(0, 31))) EXPECT_EQ(line.back(), '}');
+  EXPECT_EQ(heads, (std::vector<std::string>{R"({"event":"begin","stage":"read")", R"({"event":"end","stage":"read",")",
+                                             R"({"event":"begin","stage":"bake")", R"({"event":"end","stage":"bake",")",
+                                             R"({"event":"done","seconds":0.000)"}));
+  EXPECT_EQ(asked, 4u);
+  EXPECT_NE(output.err.find(R"("budgets":[{"name":"memory","used":4,"limit":1000}])"), std::string::npos) << output.err;
+  EXPECT_EQ(output.out, "");
+}
+
+TEST(Progress, ABarIsDrawnOverItselfAndLeavesTheCursorOnANewLine) {
+  const Output output = captured([] {
+    Progress progress(ProgressForm::bar);
+    progress.begin("bake", 3, "views");
+    std::this_thread::sleep_for(std::chrono::milliseconds(260));
+    progress.advance();
+  });
+  EXPECT_EQ(output.err.substr(0, 18), "\rbake        33% [");
+  EXPECT_EQ(output.err.size(), 1 + 79 + 1u);
+  EXPECT_EQ(output.err.back(), '\n');
+}
+
+TEST(Progress, FormsHaveNames) {
+  EXPECT_EQ(progressFormNamed("none"), ProgressForm::none);
+  EXPECT_EQ(progressFormNamed("auto"), ProgressForm::automatic);
+  EXPECT_EQ(progressFormNamed("bar"), ProgressForm::bar);
+  EXPECT_EQ(progressFormNamed("json"), ProgressForm::json);
+  EXPECT_EQ(progressFormNamed("Bar"), std::nullopt);
+}
+
+TEST(Process, MemoryInUseIsBetweenWhatIsHeldAndThePeak) {
+  const std::vector<char> touched(size_t{24} << 20, 1);
+  EXPECT_GE(rssBytes(), touched.size());
+  EXPECT_LE(rssBytes(), peakRssBytes() + (size_t{4} << 20));
 }
 
 TEST(Process, PeakMemoryCoversWhatWasTouchedAndCpuTimeGrows) {

@@ -1,0 +1,1 @@
+farcell_tests(tools/batch/plan DEPS farcell_tools_batch_plan farcell_preprocess_read)

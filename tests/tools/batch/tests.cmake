@@ -1,0 +1,2 @@
+farcell_tests(tools/batch DEPS farcell_tools_batch_plan farcell_preprocess_read)
+add_dependencies(tools_batch_test farcell-batch farcell-build)

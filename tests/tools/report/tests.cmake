@@ -1,0 +1,1 @@
+farcell_tests(tools/report DEPS farcell_tools_report)
