@@ -13,7 +13,7 @@
 
 namespace farcell {
 
-inline constexpr size_t kMaxSceneFiles = 1000;  // each stays open, and its vertices in memory
+inline constexpr size_t kMaxSceneFiles = 1000;  // each stays open
 
 struct ScenePart {
   std::unique_ptr<MeshReader> mesh;
