@@ -7,8 +7,10 @@ namespace farcell {
 PagedRows::PagedRows(std::shared_ptr<ReadMemory> memory, uint32_t rowBytes)
     : memory_(std::move(memory)),
       rowBytes_(rowBytes),
-      shift_(static_cast<uint32_t>(std::bit_width(std::max<uint64_t>(1, memory_->pageBytes() / rowBytes)) - 1)),
-      mask_((uint64_t{1} << shift_) - 1) {}
+      shift_(static_cast<uint32_t>(std::bit_width(memory_->pageBytes() / rowBytes) - 1)),
+      mask_((uint64_t{1} << shift_) - 1) {
+  FARCELL_CHECK(rowBytes > 0 && rowBytes <= memory_->pageBytes());
+}
 
 Result<std::unique_ptr<PagedRows>> PagedRows::loaded(std::shared_ptr<ReadMemory> memory, uint32_t rowBytes,
                                                      uint64_t count, Load load) {
@@ -23,9 +25,10 @@ Result<std::unique_ptr<PagedRows>> PagedRows::loaded(std::shared_ptr<ReadMemory>
 PagedRows::~PagedRows() {
   table_.shrink(0);
   for (const Page& page : pages_) {
-    if (page.slot != kNoSlot) memory_->giveSlot(frameBytes(), page.slot);
+    if (page.slot != kNoSlot) memory_->giveSlot(page.slot);
     if (page.frame != nullptr) memory_->forget(page.resident);
   }
+  memory_->arena_.trim();
 }
 
 Result<> PagedRows::reservePages(uint64_t count) {
@@ -58,12 +61,9 @@ std::byte* PagedRows::change(uint64_t index) {
 }
 
 Result<> PagedRows::bringIn(uint64_t page) {
-  FARCELL_TRY(memory_->makeRoom(frameBytes()));
-  memory_->take(frameBytes());
-  pages_[page].frame = new std::byte[frameBytes()]();
-  pages_[page].resident = static_cast<uint32_t>(memory_->residents_.size());
+  FARCELL_ASSIGN(pages_[page].frame, memory_->takePage(*this, page));
+  pages_[page].resident = static_cast<uint32_t>(memory_->residents_.size() - 1);
   pages_[page].wasUsed = true;
-  memory_->residents_.push_back({this, page});
   Result<> filled = fill(page);
   if (!filled) memory_->forget(pages_[page].resident);
   return filled;
@@ -81,7 +81,7 @@ Result<> PagedRows::fill(uint64_t page) {
 Result<> PagedRows::writeOut(uint64_t page) {
   if (!pages_[page].isDirty) return {};
   if (pages_[page].slot == kNoSlot) {
-    FARCELL_ASSIGN(pages_[page].slot, memory_->takeSlot(frameBytes()));
+    FARCELL_ASSIGN(pages_[page].slot, memory_->takeSlot());
   }
   FARCELL_TRY(memory_->scratch_->writeAt(pages_[page].slot, std::span(pages_[page].frame, frameBytes())));
   pages_[page].isDirty = false;

@@ -16,7 +16,7 @@ class PagedRows {
   // Fills rows [first, first + out.size() / rowBytes), which lie in a file already.
   using Load = std::function<Result<>(uint64_t first, std::span<std::byte> out)>;
 
-  // rowBytes > 0. Rows to be appended.
+  // Rows to be appended, of at most a page.
   PagedRows(std::shared_ptr<ReadMemory> memory, uint32_t rowBytes);
   // `count` rows that are loaded when they are asked for, again after they had to go.
   static Result<std::unique_ptr<PagedRows>> loaded(std::shared_ptr<ReadMemory> memory, uint32_t rowBytes,
@@ -31,8 +31,8 @@ class PagedRows {
 
   // rowBytes of them.
   Result<> append(const void* row);
-  // Valid until the next call that reads or appends rows of the same memory. REQUIRES: index < count(). After a failure,
-  // which the memory keeps, zeros.
+  // Valid until the next call that reads or appends rows of the same memory. REQUIRES: index < count(). After a
+  // failure, which the memory keeps, zeros.
   const std::byte* row(uint64_t index) {
     Page& page = pages_[index >> shift_];
     if (page.frame == nullptr) [[unlikely]]
@@ -53,16 +53,16 @@ class PagedRows {
   friend ReadMemory;
   static constexpr uint64_t kNoSlot = UINT64_MAX;
   struct Page {
-    std::byte* frame = nullptr;  // owned; null: not in memory
+    std::byte* frame = nullptr;  // of the memory; null: not here
     uint64_t slot = kNoSlot;     // in the scratch file, where it has been written
     uint32_t resident = 0;       // where the memory lists it
     bool wasUsed = false;        // since the clock came by
     bool isDirty = false;        // differs from what the slot or the file has
   };
-  // With it goes a place in the memory's list, which grows by doubling.
-  static constexpr uint64_t kBytesPerPage = sizeof(Page) + 2 * sizeof(ReadMemory::Resident);
+  // With it go places in the memory's lists, which grow by doubling.
+  static constexpr uint64_t kBytesPerPage = sizeof(Page) + 2 * (sizeof(ReadMemory::Resident) + sizeof(std::byte*));
 
-  uint64_t frameBytes() const { return (mask_ + 1) * rowBytes_; }
+  uint64_t frameBytes() const { return (mask_ + 1) * rowBytes_; }  // used of a page
   Result<> reservePages(uint64_t count);
   Result<> bringIn(uint64_t page);
   Result<> fill(uint64_t page);

@@ -12,7 +12,7 @@ namespace {
 
 // Small enough for random order, large enough for an orderly one to notice nothing.
 constexpr uint64_t kMaxPageBytes = uint64_t{16} << 10;
-constexpr uint64_t kLeastPages = 64;
+constexpr uint64_t kLeastPages = 32;
 
 Result<ScratchFile> createScratch(const std::filesystem::path& directory) {
   if (!directory.empty()) return ScratchFile::create(directory);
@@ -47,16 +47,19 @@ void MemoryClaim::add(MemoryClaim other) {
   bytes_ += std::exchange(other.bytes_, 0);
 }
 
-ReadMemory::ReadMemory(const ReadOptions& options)
+ReadMemory::ReadMemory(const ReadOptions& options, uint64_t pageBytes, PageArena arena)
     : limitBytes_(options.memoryBytes),
-      pageBytes_(std::min(kMaxPageBytes, std::bit_floor(options.memoryBytes / kLeastPages))),
-      scratchDirectory_(options.scratchDirectory) {}
+      pageBytes_(pageBytes),
+      scratchDirectory_(options.scratchDirectory),
+      arena_(std::move(arena)) {}
 
 Result<std::shared_ptr<ReadMemory>> ReadMemory::create(const ReadOptions& options) {
   if (options.memoryBytes < kLeastReadMemoryBytes)
     return fail(ErrorKind::invalidArgument, "expected at least {} bytes of memory to read meshes in, found {}",
                 kLeastReadMemoryBytes, options.memoryBytes);
-  return std::shared_ptr<ReadMemory>(new ReadMemory(options));
+  const uint64_t pageBytes = std::min(kMaxPageBytes, std::bit_floor(options.memoryBytes / kLeastPages));
+  FARCELL_ASSIGN(PageArena arena, PageArena::create(options.memoryBytes, pageBytes));
+  return std::shared_ptr<ReadMemory>(new ReadMemory(options, pageBytes, std::move(arena)));
 }
 
 Result<MemoryClaim> ReadMemory::claim(uint64_t bytes, const std::string& what) {
@@ -67,6 +70,7 @@ Result<MemoryClaim> ReadMemory::claim(uint64_t bytes, const std::string& what) {
                 limitBytes_, bytes, usedBytes_);
   }
   take(bytes);
+  arena_.trim();
   return MemoryClaim(shared_from_this(), bytes);
 }
 
@@ -94,6 +98,13 @@ Result<> ReadMemory::makeRoom(uint64_t bytes) {
   return {};
 }
 
+Result<std::byte*> ReadMemory::takePage(PagedRows& owner, uint64_t page) {
+  FARCELL_TRY(makeRoom(pageBytes_));
+  take(pageBytes_);
+  residents_.push_back({&owner, page});
+  return arena_.take();
+}
+
 Result<> ReadMemory::evict(size_t resident) {
   const Resident gone = residents_[resident];
   FARCELL_TRY(gone.owner->writeOut(gone.page));
@@ -104,29 +115,28 @@ Result<> ReadMemory::evict(size_t resident) {
 void ReadMemory::forget(size_t resident) {
   const Resident gone = residents_[resident];
   PagedRows::Page& page = gone.owner->pages_[gone.page];
-  delete[] std::exchange(page.frame, nullptr);
-  usedBytes_ -= gone.owner->frameBytes();
+  arena_.give(std::exchange(page.frame, nullptr));
+  usedBytes_ -= pageBytes_;
   residents_[resident] = residents_.back();
   residents_[resident].owner->pages_[residents_[resident].page].resident = static_cast<uint32_t>(resident);
   residents_.pop_back();
 }
 
-Result<uint64_t> ReadMemory::takeSlot(uint64_t bytes) {
-  std::vector<uint64_t>& free = freeSlots_[bytes];
-  if (!free.empty()) {
-    const uint64_t offset = free.back();
-    free.pop_back();
+Result<uint64_t> ReadMemory::takeSlot() {
+  if (!freeSlots_.empty()) {
+    const uint64_t offset = freeSlots_.back();
+    freeSlots_.pop_back();
     usedBytes_ -= sizeof(uint64_t);
     return offset;
   }
   if (!scratch_) {
     FARCELL_ASSIGN(scratch_, createScratch(scratchDirectory_));
   }
-  return std::exchange(scratchBytes_, scratchBytes_ + bytes);
+  return std::exchange(scratchBytes_, scratchBytes_ + pageBytes_);
 }
 
-void ReadMemory::giveSlot(uint64_t bytes, uint64_t offset) {
-  freeSlots_[bytes].push_back(offset);
+void ReadMemory::giveSlot(uint64_t offset) {
+  freeSlots_.push_back(offset);
   take(sizeof(uint64_t));  // less than its page's place in the table, which has just been freed
 }
 

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "cache/base/file.h"
+#include "preprocess/mesh/page_arena.h"
 
 namespace farcell {
 
@@ -61,7 +61,7 @@ class ReadMemory : public std::enable_shared_from_this<ReadMemory> {
   // `what`, for the message: "city.gltf: its JSON".
   Result<MemoryClaim> claim(uint64_t bytes, const std::string& what);
 
-  uint64_t pageBytes() const { return pageBytes_; }  // about what a page should have
+  uint64_t pageBytes() const { return pageBytes_; }
   uint64_t usedBytes() const { return usedBytes_; }
   uint64_t peakBytes() const { return peakBytes_; }
   uint64_t spilledBytes() const { return scratchBytes_; }  // length of the scratch file
@@ -76,24 +76,26 @@ class ReadMemory : public std::enable_shared_from_this<ReadMemory> {
     uint64_t page;
   };
 
-  explicit ReadMemory(const ReadOptions& options);
+  ReadMemory(const ReadOptions& options, uint64_t pageBytes, PageArena arena);
   Result<> makeRoom(uint64_t bytes);
+  Result<std::byte*> takePage(PagedRows& owner, uint64_t page);
   Result<> evict(size_t resident);
   void forget(size_t resident);  // makes its place free
-  Result<uint64_t> takeSlot(uint64_t bytes);
-  void giveSlot(uint64_t bytes, uint64_t offset);
+  Result<uint64_t> takeSlot();
+  void giveSlot(uint64_t offset);
   void take(uint64_t bytes);
 
   const uint64_t limitBytes_;
   const uint64_t pageBytes_;
   const std::filesystem::path scratchDirectory_;
+  PageArena arena_;
   uint64_t usedBytes_ = 0;
   uint64_t peakBytes_ = 0;
   std::vector<Resident> residents_;
   size_t hand_ = 0;
   std::optional<ScratchFile> scratch_;
   uint64_t scratchBytes_ = 0;
-  std::map<uint64_t, std::vector<uint64_t>> freeSlots_;  // by size
+  std::vector<uint64_t> freeSlots_;  // of a page each
   std::optional<Error> failure_;
 };
 

@@ -56,7 +56,9 @@ OpenedMesh openScene(const std::filesystem::path& path, const Memory& memory) {
   std::vector<ScenePart> parts;
   for (SceneFile& file : scene.files) {
     FARCELL_ASSIGN(std::unique_ptr<MeshReader> mesh, openFile(file.path, memory));
-    parts.push_back({std::move(mesh), std::move(file.placements)});
+    FARCELL_ASSIGN(MemoryClaim claim, memory->claim(file.placements.size() * sizeof(Placement),
+                                                    fmt::format("{}: placements", path.string())));
+    parts.push_back({std::move(mesh), std::move(file.placements), std::move(claim)});
   }
   return composeMeshes(std::move(parts), {path, scene.up, scene.metresPerUnit});
 }
@@ -83,7 +85,7 @@ OpenedMesh openMeshes(std::span<const std::filesystem::path> paths, const Memory
   std::vector<ScenePart> parts;
   for (const std::filesystem::path& path : paths) {
     FARCELL_ASSIGN(std::unique_ptr<MeshReader> mesh, openAny(path, memory));
-    parts.push_back({std::move(mesh), {Placement(Pose{})}});
+    parts.push_back({std::move(mesh), {Placement(Pose{})}, {}});
   }
   return composeMeshes(std::move(parts), {});
 }

@@ -231,8 +231,7 @@ Result<Elements> GltfAccessors::withSparse(uint64_t index, const Elements& dense
   FARCELL_TRY(values.part(sparse.valueOffset, replacing.size()).read(replacing));
   FARCELL_ASSIGN(ByteRange indices, buffers_.bytes(sparse.indexView));
   indices = indices.part(sparse.indexOffset, sparse.count * sizeBytes(sparse.indexType));
-  FARCELL_TRY(
-      replaceElements(at.in("indices"), indices, sparse.indexType, replacing, elementBytes, all));
+  FARCELL_TRY(replaceElements(at.in("indices"), indices, sparse.indexType, replacing, elementBytes, all));
   Elements whole = dense;
   whole.bytes = inMemory(std::move(room), std::move(all));
   whole.stride = static_cast<uint32_t>(elementBytes);

@@ -67,7 +67,8 @@ Result<> checkMeshoptCoding(const GltfPlace& place, const MeshoptCoding& coding,
   return {};
 }
 
-Result<std::vector<std::byte>> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& coding, const ByteRange& coded) {
+Result<std::vector<std::byte>> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& coding,
+                                             const ByteRange& coded) {
   std::vector<std::byte> in(coded.size);
   FARCELL_TRY(coded.read(in));
   std::vector<std::byte> out(coding.count * coding.stride);

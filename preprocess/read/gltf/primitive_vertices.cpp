@@ -105,8 +105,7 @@ class RowLoader {
       FARCELL_TRY(loadPoints(*elements_.normal, window, fullScale(elements_.normal->type), normals_));
     if (elements_.colour) FARCELL_TRY(loadColours(*elements_.colour, window, look_.factor, colours_));
     if (elements_.textureCoordinates)
-      FARCELL_TRY(
-          loadTextureCoordinates(*elements_.textureCoordinates, window, look_.transform, textureCoordinates_));
+      FARCELL_TRY(loadTextureCoordinates(*elements_.textureCoordinates, window, look_.transform, textureCoordinates_));
     return {};
   }
 

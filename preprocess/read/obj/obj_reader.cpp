@@ -24,7 +24,7 @@ struct ObjContents {
   MemoryClaim names;                              // for the next two
   std::vector<std::string> libraries;             // rests of mtllib statements
   std::unordered_set<std::string> usedMaterials;  // by at least one face
-  bool hasColours = false;  // at least one vertex
+  bool hasColours = false;                        // at least one vertex
   uint64_t triangles = 0;
   bool everyCornerHasNormal = true;
   uint64_t greatestNormal = 0;

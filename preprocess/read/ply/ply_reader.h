@@ -9,8 +9,8 @@
 
 namespace farcell {
 
-// Reads the header, the vertices where they are not of one size, and, once, the face rows: a file that contradicts itself
-// fails here, not later.
+// Reads the header, the vertices where they are not of one size, and, once, the face rows: a file that contradicts
+// itself fails here, not later.
 Result<std::unique_ptr<MeshReader>> openPly(InputFile file, const std::shared_ptr<ReadMemory>& memory);
 
 }  // namespace farcell

@@ -1,15 +1,14 @@
 // How fast mesh files become triangles, and in how much memory; results.md has figures.
 //
-//   bench_read FILE                 opens it, two passes, and its hash: a line of seconds and Mtri/s each
+//   bench_read FILE [MIB]           opens it in that much memory (default 512): two passes, and its hash, a line each
 //   bench_read --shuffle FROM TO    binary PLY: the same triangles in random order
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <string_view>
 
-#include "cache/base/hash.h"
 #include "preprocess/mesh/source_hash.h"
 #include "preprocess/read/open_mesh.h"
 #include "tests/bench/read/shuffle.h"
@@ -49,8 +48,9 @@ Result<MeshCounts> pass(MeshReader& mesh, double& sum) {
   });
 }
 
-Result<> measure(const std::filesystem::path& path) {
-  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> mesh, timed("open", [&] { return openMesh(path); }));
+Result<> measure(const std::filesystem::path& path, const ReadOptions& options) {
+  FARCELL_ASSIGN(const std::shared_ptr<ReadMemory> memory, ReadMemory::create(options));
+  FARCELL_ASSIGN(const std::unique_ptr<MeshReader> mesh, timed("open", [&] { return openMeshes({&path, 1}, memory); }));
   fmt::print("  {}, {} triangles\n", mesh->info().format, mesh->info().declaredTriangles);
   for (int i = 0; i < 2; ++i) {
     double sum = 0;
@@ -60,6 +60,8 @@ Result<> measure(const std::filesystem::path& path) {
   }
   FARCELL_ASSIGN(const uint64_t hash, timed("hash", [&] { return sourceHash(*mesh); }));
   fmt::print("  {:016x}\n", hash);
+  fmt::print("memory   at most {:.1f} MB of {:.1f}, scratch {:.1f} MB\n", double(memory->peakBytes()) * 1e-6,
+             double(options.memoryBytes) * 1e-6, double(memory->spilledBytes()) * 1e-6);
   return {};
 }
 
@@ -68,11 +70,13 @@ Result<> measure(const std::filesystem::path& path) {
 
 int main(int argc, char** argv) {
   const bool shuffles = argc == 4 && std::string_view(argv[1]) == "--shuffle";
-  if (!shuffles && argc != 2) {
-    std::fprintf(stderr, "usage: bench_read FILE | --shuffle FROM TO\n");
+  if (!shuffles && argc != 2 && argc != 3) {
+    std::fprintf(stderr, "usage: bench_read FILE [MIB] | --shuffle FROM TO\n");
     return 2;
   }
-  const farcell::Result<> done = shuffles ? farcell::shufflePly(argv[2], argv[3]) : farcell::measure(argv[1]);
+  farcell::ReadOptions options;
+  if (argc == 3) options.memoryBytes = std::strtoull(argv[2], nullptr, 10) << 20;
+  const farcell::Result<> done = shuffles ? farcell::shufflePly(argv[2], argv[3]) : farcell::measure(argv[1], options);
   if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
   return done ? 0 : 1;
 }
