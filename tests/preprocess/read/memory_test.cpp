@@ -138,7 +138,8 @@ TEST(ReadMemory, SoAreColoursNormalsAndTextureCoordinates) {
 
 TEST(ReadMemory, FilesOfASceneShareIt) {
   const TempDirectory directory;
-  const ModelFile file(shuffledGrid(90));
+  const IndexedModel model = shuffledGrid(90);
+  const ModelFile file(model);
   std::vector<std::filesystem::path> paths;
   for (int i = 0; i < 3; ++i) paths.push_back(directory.write(fmt::format("{}.obj", i), file.obj()));
   const auto memory = ReadMemory::create({kTiny, {}}).value();
@@ -170,7 +171,8 @@ TEST(ReadMemory, AScratchDirectoryThatCannotBeWrittenIsNamed) {
 
 TEST(ReadMemory, AFileThatShrinksBetweenPassesIsAnError) {
   const TempDirectory directory;
-  const ModelFile file(shuffledGrid(90));
+  const IndexedModel model = shuffledGrid(90);
+  const ModelFile file(model);
   const std::vector<std::pair<std::string, std::string>> files = {
       {"text.ply", file.plyText()}, {"little.ply", file.plyLittle()}, {"big.ply", file.plyBig()},
       {"mesh.obj", file.obj()},     {"mesh.off", file.off()},         {"text.stl", file.stlText()},
