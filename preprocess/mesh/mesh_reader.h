@@ -4,9 +4,10 @@
 // its first corner, concave or not; in a strip, every three indices in a row are one, every other one turned round, and
 // those that only join two parts of a strip are left out as zeroArea. One bad index costs the triangles that use it.
 //
-// A file is opened in one reading (byte_stream.h): vertices are kept in memory (vertices.h), faces are counted and
-// checked, so that a file that contradicts itself fails at once. Each pass then streams the faces again and hands
-// them on through triangle_batch.h. (STL has no vertices apart from its faces: nothing is kept.)
+// A file is opened in one reading (byte_stream.h): vertices are kept in a stated memory (vertices.h, read_memory.h)
+// where they cannot be found again in the file, faces are counted and checked, so that a file that contradicts itself
+// fails at once. Each pass then streams the faces again and hands them on through triangle_batch.h. (STL has no
+// vertices apart from its faces: nothing is kept.)
 #pragma once
 
 #include <array>
@@ -56,7 +57,8 @@ inline constexpr const char* kSkippedNonFinite = "nonFinitePosition";  // NaN or
 inline constexpr const char* kSkippedZeroArea = "zeroArea";            // zero_area.h: exactly none; slivers are kept
 inline constexpr const char* kSkippedBadIndex = "indexOutOfRange";
 
-// An opened mesh. `forEachTriangle` may be called any number of times and gives the same triangles in the same order.
+// An opened mesh. `forEachTriangle` may be called any number of times and gives the same triangles in the same order;
+// after a file that was read changed, or scratch failed, an error. For one thread.
 class MeshReader {
  public:
   virtual ~MeshReader() = default;

@@ -1,82 +1,67 @@
 #include "preprocess/mesh/triangle_batch.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "preprocess/mesh/zero_area.h"
 
 namespace farcell {
 namespace {
-constexpr size_t kBatchTriangles = 2048;  // 240 KiB: still in the cache when the sink reads them
+constexpr size_t kBatchTriangles = 1024;  // 152 KiB: still in the cache when the sink reads them
 
 bool isFinite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-const Vertices kNoVertices;
+InputTriangle plain() {
+  InputTriangle triangle{};
+  triangle.colours.fill(defaultColour());
+  return triangle;
+}
 }  // namespace
 
 TriangleBatch::TriangleBatch(const Vertices& vertices, const MeshReader::Sink& sink)
-    : vertices_(vertices),
-      sink_(sink),
-      vertexCount_(vertices.count()),
-      defaultColour_(defaultColour()),
-      triangles_(kBatchTriangles) {}
+    : vertices_(&vertices), sink_(sink), vertexCount_(vertices.count()), triangles_(kBatchTriangles, plain()) {}
 
-TriangleBatch::TriangleBatch(const MeshReader::Sink& sink) : TriangleBatch(kNoVertices, sink) {}
+TriangleBatch::TriangleBatch(const MeshReader::Sink& sink)
+    : vertices_(nullptr), sink_(sink), vertexCount_(0), triangles_(kBatchTriangles, plain()) {}
 
-// The corners' positions; false, and counted, when the triangle must be left out.
-bool TriangleBatch::gather(const Indices& positions, std::array<glm::dvec3, 3>& out) {
-  if (positions[0] >= vertexCount_ || positions[1] >= vertexCount_ || positions[2] >= vertexCount_) {
-    ++badIndex_;
-    return false;
-  }
-  for (size_t i = 0; i < 3; ++i) out[i] = vertices_.position(positions[i]);
-  return isUsable(out, vertices_.allFinite);
-}
-
-bool TriangleBatch::isUsable(const std::array<glm::dvec3, 3>& positions, bool allFinite) {
-  if (!allFinite && !(isFinite(positions[0]) && isFinite(positions[1]) && isFinite(positions[2]))) {
+bool TriangleBatch::isUsableExactly(const std::array<glm::dvec3, 3>& positions) {
+  if (!(isFinite(positions[0]) && isFinite(positions[1]) && isFinite(positions[2]))) {
     ++nonFinite_;
     return false;
   }
-  if (hasZeroArea(positions)) {
+  if (hasZeroAreaExactly(positions)) {
     ++zeroArea_;
     return false;
   }
   return true;
 }
 
-void TriangleBatch::add(const Indices& positions, const Indices& normals, const FaceLook& look) {
+void TriangleBatch::add(const Indices& corners, const FaceLook& look, std::span<const glm::vec3> normals) {
   InputTriangle& triangle = triangles_[used_];
-  if (failed() || !gather(positions, triangle.positions)) return;
-  for (size_t i = 0; i < 3; ++i) {
-    const uint32_t colour = vertices_.colours.empty() ? kNoColour : vertices_.colours[positions[i]];
-    triangle.colours[i] = colour == kNoColour ? look.colour : colour;
-    triangle.normals[i] = normals[i] < vertices_.normals.size() ? vertices_.normals[normals[i]] : glm::vec3(0);
-  }
+  triangle.colours.fill(kNoColour);
+  if (!gather(corners, triangle)) return;
+  for (uint32_t& colour : triangle.colours)
+    if (colour == kNoColour) colour = look.colour;
+  if (!normals.empty()) std::copy_n(normals.begin(), 3, triangle.normals.begin());
   triangle.texture = look.texture;
   if (look.texture != kNoTexture) triangle.textureCoordinates = look.textureCoordinates;
   accept();
 }
 
 void TriangleBatch::add(const InputTriangle& triangle) {
-  if (failed() || !isUsable(triangle.positions, false)) return;
+  if (!isUsable(triangle.positions)) return;
   triangles_[used_] = triangle;
   accept();
 }
 
-void TriangleBatch::accept() {
-  ++accepted_;
-  if (++used_ == kBatchTriangles) flush();
-}
-
 void TriangleBatch::flush() {
-  if (used_ == 0) return;
-  if (Result<> taken = sink_(std::span(triangles_).first(used_)); !taken) failure_ = std::move(taken).error();
+  if (used_ > 0 && !failed())
+    if (Result<> taken = sink_(std::span(triangles_).first(used_)); !taken) failure_ = std::move(taken).error();
   used_ = 0;
 }
 
 Result<MeshCounts> TriangleBatch::finish() {
-  if (!failed()) flush();
-  if (failed()) return tl::unexpected<Error>(*failure_);
+  flush();
+  if (failure_) return tl::unexpected<Error>(*failure_);
+  if (failed()) return tl::unexpected<Error>(*vertices_->failure());
   MeshCounts counts;
   counts.accepted = accepted_;
   if (badIndex_ > 0) counts.skipped[kSkippedBadIndex] = badIndex_;

@@ -211,7 +211,9 @@ Result<Elements> GltfAccessors::elements(uint64_t index) {
     if (checked->stride != 0) elements.stride = checked->stride;
     elements.bytes = view.part(accessor.offset, view.size - accessor.offset);
   } else {
-    elements.bytes = inMemory(std::vector<std::byte>(accessor.count * elements.elementBytes()));
+    const uint64_t size = accessor.count * elements.elementBytes();
+    FARCELL_ASSIGN(MemoryClaim room, buffers_.claim(place(index), size));
+    elements.bytes = inMemory(std::move(room), std::vector<std::byte>(size));
   }
   if (accessor.sparse) return withSparse(index, elements);
   return elements;
@@ -220,16 +222,18 @@ Result<Elements> GltfAccessors::elements(uint64_t index) {
 Result<Elements> GltfAccessors::withSparse(uint64_t index, const Elements& dense) {
   const SparsePart& sparse = *accessors_[index].sparse;
   const size_t elementBytes = dense.elementBytes();
+  const GltfPlace at = place(index).in("sparse");
+  FARCELL_ASSIGN(MemoryClaim room, buffers_.claim(at, dense.count * elementBytes));
+  FARCELL_ASSIGN(MemoryClaim replacingRoom, buffers_.claim(at, sparse.count * elementBytes));
   FARCELL_ASSIGN(std::vector<std::byte> all, packed(dense));
   FARCELL_ASSIGN(const ByteRange values, buffers_.bytes(sparse.valueView));
   std::vector<std::byte> replacing(sparse.count * elementBytes);
   FARCELL_TRY(values.part(sparse.valueOffset, replacing.size()).read(replacing));
   FARCELL_ASSIGN(ByteRange indices, buffers_.bytes(sparse.indexView));
   indices = indices.part(sparse.indexOffset, sparse.count * sizeBytes(sparse.indexType));
-  FARCELL_TRY(
-      replaceElements(place(index).in("sparse.indices"), indices, sparse.indexType, replacing, elementBytes, all));
+  FARCELL_TRY(replaceElements(at.in("indices"), indices, sparse.indexType, replacing, elementBytes, all));
   Elements whole = dense;
-  whole.bytes = inMemory(std::move(all));
+  whole.bytes = inMemory(std::move(room), std::move(all));
   whole.stride = static_cast<uint32_t>(elementBytes);
   return whole;
 }

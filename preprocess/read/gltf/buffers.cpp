@@ -11,7 +11,6 @@ using nlohmann::json;
 
 constexpr size_t kMaxFiles = 512;                           // each stays open
 constexpr uint64_t kMaxDataUriBytes = uint64_t{256} << 20;  // of all buffers together
-constexpr uint64_t kDecodedBudgetBytes = uint64_t{512} << 20;
 constexpr uint32_t kMaxStrideBytes = 252;
 
 MeshoptCoding codingOf(const json& extension) {
@@ -70,10 +69,11 @@ Result<std::optional<ByteRange>> GltfBuffers::openBuffer(const GltfPlace& place,
     if (!isBinary) return place.bad("a uri, or to be the first buffer of a .glb with a binary chunk", "neither");
     bytes = *binary;
   } else if (const auto& text = uri->get_ref<const std::string&>(); isDataUri(text)) {
+    FARCELL_ASSIGN(MemoryClaim room, claim(place.in("uri"), text.size()));
     FARCELL_ASSIGN(std::vector<std::byte> decoded,
                    decodeDataUri(place.in("uri"), text, kMaxDataUriBytes - dataUriBytes_));
     dataUriBytes_ += decoded.size();
-    bytes = inMemory(std::move(decoded));
+    bytes = inMemory(std::move(room), std::move(decoded));
   } else {
     FARCELL_ASSIGN(const InputFile* file, openBeside(place.in("uri"), text));
     bytes = {file, nullptr, 0, file->sizeBytes()};
@@ -100,6 +100,20 @@ Result<const InputFile*> GltfBuffers::openBeside(const GltfPlace& place, const s
   FARCELL_ASSIGN(InputFile file, InputFile::open(whole));
   files_.push_back(std::move(file));
   return &files_.back();
+}
+
+Result<MemoryClaim> GltfBuffers::claim(const GltfPlace& place, uint64_t bytes) {
+  const std::string what = fmt::format("{}: {}", place.path, place.where);
+  // What was decoded before can be decoded again.
+  for (; !decoded_.empty(); decoded_.pop_back())
+    if (Result<MemoryClaim> room = memory_->claim(bytes, what)) return room;
+  return memory_->claim(bytes, what);
+}
+
+Result<> GltfBuffers::claimTable(const GltfPlace& place, uint64_t bytes) {
+  FARCELL_ASSIGN(MemoryClaim room, claim(place, bytes));
+  tables_.add(std::move(room));
+  return {};
 }
 
 Result<> GltfBuffers::checkExtent(const GltfPlace& place, uint32_t buffer, uint64_t offset, uint64_t size) const {
@@ -149,15 +163,13 @@ Result<ByteRange> GltfBuffers::bytes(uint64_t index) {
   } else {
     const ByteRange coded = buffers_[view.coding->buffer]->part(view.coding->offset, view.coding->size);
     const GltfPlace at = place(fmt::format("bufferViews[{}].extensions.EXT_meshopt_compression", index));
-    FARCELL_ASSIGN(decoded.bytes, decodeMeshopt(at, *view.coding, coded));
+    FARCELL_ASSIGN(MemoryClaim room, claim(at, coded.size + view.size));
+    FARCELL_ASSIGN(std::vector<std::byte> bytes, decodeMeshopt(at, *view.coding, coded));
+    room.shrink(view.size);
+    decoded.bytes = inMemory(std::move(room), std::move(bytes));
   }
-  decoded_.push_front(decoded);
   // Views that many primitives share are decoded once; what was used longest ago goes first.
-  uint64_t total = 0;
-  for (size_t i = 0; i < decoded_.size(); ++i) {
-    total += decoded_[i].bytes.size;
-    if (i > 0 && total > kDecodedBudgetBytes) decoded_.resize(i);
-  }
+  decoded_.push_front(decoded);
   return decoded.bytes;
 }
 

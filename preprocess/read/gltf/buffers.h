@@ -22,7 +22,9 @@ struct GltfView {
 
 class GltfBuffers {
  public:
-  explicit GltfBuffers(InputFile file) { files_.push_back(std::move(file)); }
+  GltfBuffers(InputFile file, std::shared_ptr<ReadMemory> memory) : memory_(std::move(memory)) {
+    files_.push_back(std::move(file));
+  }
   GltfBuffers(const GltfBuffers&) = delete;  // ranges point into it
   GltfBuffers& operator=(const GltfBuffers&) = delete;
 
@@ -31,6 +33,10 @@ class GltfBuffers {
 
   const InputFile& file() const { return files_.front(); }
   const std::string& path() const { return file().path(); }
+  const std::shared_ptr<ReadMemory>& memory() const { return memory_; }
+  Result<MemoryClaim> claim(const GltfPlace& place, uint64_t bytes);
+  // Of what lives as long as the buffers.
+  Result<> claimTable(const GltfPlace& place, uint64_t bytes);
   GltfPlace place(std::string where) const { return {path(), std::move(where)}; }
   // The opened file first, each file once.
   std::vector<std::filesystem::path> files() const;
@@ -42,7 +48,7 @@ class GltfBuffers {
   Result<const GltfView*> checkedView(const GltfPlace& user, uint64_t view) const;
   // Where its bytes lie in a file or in memory. REQUIRES: a checked view that is not compressed.
   ByteRange plainBytes(const GltfView& view) const;
-  // REQUIRES: a checked view. Decompressed where it must be; the last of these are kept for the next call.
+  // REQUIRES: a checked view. Decompressed where it must be, whole; these are kept while there is memory.
   Result<ByteRange> bytes(uint64_t view);
 
  private:
@@ -54,6 +60,8 @@ class GltfBuffers {
                                               const std::optional<ByteRange>& binary);
   Result<> checkExtent(const GltfPlace& place, uint32_t buffer, uint64_t offset, uint64_t size) const;
 
+  const std::shared_ptr<ReadMemory> memory_;
+  MemoryClaim tables_;
   std::deque<InputFile> files_;                    // never moved
   std::vector<std::optional<ByteRange>> buffers_;  // none: a fallback that was left out
   std::vector<GltfView> views_;

@@ -11,9 +11,14 @@ Result<> ByteRange::read(std::span<std::byte> out) const {
   return {};
 }
 
-ByteRange inMemory(std::vector<std::byte> bytes) {
+ByteRange inMemory(MemoryClaim claim, std::vector<std::byte> bytes) {
+  struct Claimed {
+    MemoryClaim claim;
+    std::vector<std::byte> bytes;
+  };
   const uint64_t size = bytes.size();
-  return {nullptr, std::make_shared<const std::vector<std::byte>>(std::move(bytes)), 0, size};
+  const auto claimed = std::make_shared<const Claimed>(Claimed{std::move(claim), std::move(bytes)});
+  return {nullptr, SharedBytes(claimed, &claimed->bytes), 0, size};
 }
 
 }  // namespace farcell

@@ -8,6 +8,7 @@
 #include "cache/base/check.h"
 #include "cache/base/file.h"
 #include "cache/base/interrupt.h"
+#include "preprocess/mesh/read_memory.h"
 
 namespace farcell {
 
@@ -27,7 +28,8 @@ struct ByteRange {
   Result<> read(std::span<std::byte> out) const;  // out.size() == size
 };
 
-ByteRange inMemory(std::vector<std::byte> bytes);
+// The claim is held as long as the bytes.
+ByteRange inMemory(MemoryClaim claim, std::vector<std::byte> bytes);
 
 // Calls take(const std::byte*) -> bool for `count` elements of elementBytes, strideBytes apart, until it says false.
 // REQUIRES: they lie within the range.

@@ -12,7 +12,7 @@ namespace farcell {
 
 const bool kHasDraco = false;
 
-Result<> decodeDraco(const GltfPlace& place, const ByteRange&, DracoMesh&) {
+Result<> decodeDraco(const GltfPlace& place, const ByteRange&, GltfBuffers&, DracoMesh&) {
   return place.failed(ErrorKind::unsupported, "a build with libdraco", "a primitive compressed by it");
 }
 
@@ -26,6 +26,7 @@ namespace {
 // million triangles reaches 40 faces a byte, and this is far beyond it.
 constexpr uint64_t kFreeFaces = uint64_t{1} << 16;
 constexpr uint64_t kMaxFacesPerByte = 256;
+constexpr uint64_t kDecoderBytesPerFace = 112;  // with normals and texture coordinates
 constexpr uint64_t kMaxFaces = uint64_t{16} << 20;
 
 struct DracoClaims {
@@ -106,7 +107,8 @@ std::optional<ComponentType> typeOf(draco::DataType type) {
   }
 }
 
-Result<> takeAttribute(const GltfPlace& place, const draco::Mesh& decoded, DracoAttribute& attribute) {
+Result<> takeAttribute(const GltfPlace& place, const draco::Mesh& decoded, GltfBuffers& buffers,
+                       DracoAttribute& attribute) {
   Elements& elements = attribute.elements;
   const draco::PointAttribute* found = decoded.GetAttributeByUniqueId(attribute.id);
   const bool fits = found && typeOf(found->data_type()) == elements.type &&
@@ -114,19 +116,21 @@ Result<> takeAttribute(const GltfPlace& place, const draco::Mesh& decoded, Draco
   if (!fits)
     return place.bad(fmt::format("an attribute {} of the accessor's type", attribute.id), "none or another type");
   elements.stride = static_cast<uint32_t>(elements.elementBytes());
-  std::vector<std::byte> bytes(elements.count * elements.stride);
+  FARCELL_ASSIGN(MemoryClaim room, buffers.claim(place, elements.count * elements.stride));
+  std::vector<std::byte> bytes(room.sizeBytes());
   std::byte* out = bytes.data();
   for (draco::PointIndex point(0); point < decoded.num_points(); ++point, out += elements.stride) {
     const draco::AttributeValueIndex value = found->mapped_index(point);
     if (value.value() >= found->size()) return place.bad("an attribute value for each vertex", "fewer");
     std::memcpy(out, found->GetAddress(value), elements.stride);
   }
-  elements.bytes = inMemory(std::move(bytes));
+  elements.bytes = inMemory(std::move(room), std::move(bytes));
   return {};
 }
 
-Elements takeIndices(const draco::Mesh& decoded) {
-  std::vector<std::byte> bytes(size_t{decoded.num_faces()} * 3 * sizeof(uint32_t));
+Result<Elements> takeIndices(const GltfPlace& place, const draco::Mesh& decoded, GltfBuffers& buffers) {
+  FARCELL_ASSIGN(MemoryClaim room, buffers.claim(place, uint64_t{decoded.num_faces()} * 3 * sizeof(uint32_t)));
+  std::vector<std::byte> bytes(room.sizeBytes());
   std::byte* out = bytes.data();
   for (draco::FaceIndex face(0); face < decoded.num_faces(); ++face)
     for (const draco::PointIndex& corner : decoded.face(face)) {
@@ -135,10 +139,12 @@ Elements takeIndices(const draco::Mesh& decoded) {
       out += sizeof(index);
     }
   const uint64_t count = bytes.size() / sizeof(uint32_t);
-  return {inMemory(std::move(bytes)), count, sizeof(uint32_t), ComponentType::uint32, 1, false};
+  return Elements{
+      inMemory(std::move(room), std::move(bytes)), count, sizeof(uint32_t), ComponentType::uint32, 1, false};
 }
 
-Result<> decodeChecked(const GltfPlace& place, std::span<const std::byte> coded, DracoMesh& mesh) {
+Result<> decodeChecked(const GltfPlace& place, std::span<const std::byte> coded, GltfBuffers& buffers,
+                       DracoMesh& mesh) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(coded.data()), coded.size());
   draco::Decoder decoder;
@@ -148,19 +154,21 @@ Result<> decodeChecked(const GltfPlace& place, std::span<const std::byte> coded,
   if (decoded->num_points() != mesh.points || decoded->num_faces() != mesh.faces)
     return place.bad(fmt::format("{} vertices, {} triangles", mesh.points, mesh.faces),
                      fmt::format("{}, {}", decoded->num_points(), decoded->num_faces()));
-  for (DracoAttribute& attribute : mesh.attributes) FARCELL_TRY(takeAttribute(place, *decoded, attribute));
-  mesh.indices = takeIndices(*decoded);
+  for (DracoAttribute& attribute : mesh.attributes) FARCELL_TRY(takeAttribute(place, *decoded, buffers, attribute));
+  FARCELL_ASSIGN(mesh.indices, takeIndices(place, *decoded, buffers));
   return {};
 }
 
 }  // namespace
 
-Result<> decodeDraco(const GltfPlace& place, const ByteRange& coded, DracoMesh& mesh) {
+Result<> decodeDraco(const GltfPlace& place, const ByteRange& coded, GltfBuffers& buffers, DracoMesh& mesh) {
+  FARCELL_ASSIGN(MemoryClaim codedRoom, buffers.claim(place, coded.size));
   std::vector<std::byte> bytes(coded.size);
   FARCELL_TRY(coded.read(bytes));
   FARCELL_TRY(checkClaims(place, bytes, mesh));
+  FARCELL_ASSIGN(MemoryClaim decoderRoom, buffers.claim(place, mesh.faces * kDecoderBytesPerFace));
   try {
-    return decodeChecked(place, bytes, mesh);
+    return decodeChecked(place, bytes, buffers, mesh);
   } catch (const std::exception& exception) {  // it allocates by what it reads
     return place.bad("a mesh coded by Draco", inQuotes(exception.what()));
   }

@@ -21,7 +21,8 @@ struct DracoMesh {
 };
 
 // `mesh`: what the accessors of the primitive promise, filled with what the coded bytes hold. corrupt where they
-// differ; exhausted where the bytes are too few to hold it.
-Result<> decodeDraco(const GltfPlace& place, const ByteRange& coded, DracoMesh& mesh);
+// differ; exhausted where the bytes are too few to hold it. The library decodes all of it at once: a part must fit the
+// memory, at about 160 bytes a triangle, and has at most 16 Mi of them.
+Result<> decodeDraco(const GltfPlace& place, const ByteRange& coded, GltfBuffers& buffers, DracoMesh& mesh);
 
 }  // namespace farcell

@@ -102,10 +102,11 @@ class GltfReader final : public MeshReader {
 
 Result<MeshCounts> GltfReader::forEachTriangle(const Sink& sink) {
   TriangleBatch batch(sink);
-  VertexCache cache;
+  VertexCache cache(scene_.buffers->memory());
   for (const GltfPrimitive& primitive : scene_.primitives) {
     if (batch.failed()) break;
     const GltfPlace place = placeOf(*scene_.buffers, primitive.mesh, primitive.number);
+    cache.makeRoomFor(primitive);
     FARCELL_ASSIGN(const PrimitiveElements elements, elementsOf(place, primitive, *scene_.buffers, *scene_.accessors));
     FARCELL_TRY(emitTriangles(place, primitive, elements, scene_.instances[primitive.mesh], cache, batch));
   }
@@ -116,10 +117,12 @@ Result<MeshCounts> GltfReader::forEachTriangle(const Sink& sink) {
 
 bool startsLikeGltf(const InputFile& file) { return startsLikeGlb(file); }
 
-Result<std::unique_ptr<MeshReader>> openGltf(InputFile file) {
+Result<std::unique_ptr<MeshReader>> openGltf(InputFile file, const std::shared_ptr<ReadMemory>& memory) {
   GltfScene scene;
-  scene.buffers = std::make_unique<GltfBuffers>(std::move(file));
+  scene.buffers = std::make_unique<GltfBuffers>(std::move(file), memory);
   FARCELL_ASSIGN(GltfContainer container, readContainer(scene.buffers->file()));
+  FARCELL_ASSIGN(const uint64_t openingSize, openingBytes(scene.buffers->path(), container.jsonOffset, container.json));
+  FARCELL_ASSIGN(MemoryClaim opening, scene.buffers->claim(scene.buffers->place("JSON"), openingSize));
   FARCELL_ASSIGN(nlohmann::json root, readCheckedJson(scene.buffers->file(), container));
   FARCELL_TRY(scene.buffers->open(root, container.binary));
   std::vector<GltfImage> images = imagesOf(root);

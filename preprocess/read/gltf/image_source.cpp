@@ -27,8 +27,9 @@ Result<ByteRange> bytesOf(GltfBuffers& buffers, const GltfPlace& place, const Gl
   }
   if (image.uri.empty()) return place.bad("a uri or a bufferView", "neither");
   if (isDataUri(image.uri)) {
+    FARCELL_ASSIGN(MemoryClaim room, buffers.claim(place.in("uri"), image.uri.size()));
     FARCELL_ASSIGN(std::vector<std::byte> bytes, decodeDataUri(place.in("uri"), image.uri, kMaxDataUriBytes));
-    return inMemory(std::move(bytes));
+    return inMemory(std::move(room), std::move(bytes));
   }
   FARCELL_ASSIGN(const InputFile* file, buffers.openBeside(place.in("uri"), image.uri));
   return ByteRange{file, nullptr, 0, file->sizeBytes()};
@@ -45,6 +46,7 @@ Result<TextureSource> imageSource(GltfBuffers& buffers, const GltfPlace& place, 
   source.sizeBytes = range.size;
   if (range.file) return source;
   const bool isAll = range.size == range.memory->size();
+  if (!isAll) FARCELL_TRY(buffers.claimTable(place, range.size));
   const auto begin = range.memory->begin() + static_cast<std::ptrdiff_t>(range.offset);
   source.embedded =
       isAll ? range.memory

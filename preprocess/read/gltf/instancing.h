@@ -11,6 +11,6 @@ namespace farcell {
 
 // Appends what the node's mesh stands for: one instance, or those of the extension.
 Result<> addInstances(const GltfPlace& place, const tinygltf::Node& node, const GltfTransform& worldFromNode,
-                      GltfAccessors& accessors, std::vector<GltfTransform>& instances);
+                      GltfBuffers& buffers, GltfAccessors& accessors, std::vector<GltfTransform>& instances);
 
 }  // namespace farcell

@@ -8,7 +8,7 @@ namespace {
 constexpr int kMaxDepth = 64;                       // glTF itself needs about ten
 constexpr uint64_t kMaxValues = uint64_t{8} << 20;  // at most about 1 GB as a tree
 
-Result<> checkSize(const std::string& path, uint64_t offset, const std::string& text) {
+Result<uint64_t> countValues(const std::string& path, uint64_t offset, const std::string& text) {
   int depth = 0;
   uint64_t values = 0;
   bool inString = false;
@@ -29,13 +29,19 @@ Result<> checkSize(const std::string& path, uint64_t offset, const std::string& 
       return fail(ErrorKind::exhausted, "{}: offset {}: expected at most {} JSON values, found more", path, offset + i,
                   kMaxValues);
   }
-  return {};
+  return values;
 }
 
 }  // namespace
 
+Result<uint64_t> openingBytes(const std::string& path, uint64_t offset, const std::string& text) {
+  constexpr uint64_t kBytesPerValue = 192;
+  constexpr uint64_t kTexts = 3;  // as it was read, as strings of the tree, and as tinygltf is given it
+  FARCELL_ASSIGN(const uint64_t values, countValues(path, offset, text));
+  return values * kBytesPerValue + kTexts * text.size();
+}
+
 Result<nlohmann::json> parseJsonText(const std::string& path, uint64_t offset, const std::string& text) {
-  FARCELL_TRY(checkSize(path, offset, text));
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {

@@ -67,7 +67,8 @@ Result<> checkMeshoptCoding(const GltfPlace& place, const MeshoptCoding& coding,
   return {};
 }
 
-Result<ByteRange> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& coding, const ByteRange& coded) {
+Result<std::vector<std::byte>> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& coding,
+                                             const ByteRange& coded) {
   std::vector<std::byte> in(coded.size);
   FARCELL_TRY(coded.read(in));
   std::vector<std::byte> out(coding.count * coding.stride);
@@ -75,7 +76,7 @@ Result<ByteRange> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& cod
     return place.bad(fmt::format("{} elements of {} bytes, coded as {}", coding.count, coding.stride, coding.mode),
                      fmt::format("bytes that are none (meshoptimizer: {})", code));
   unfilter(out.data(), coding);
-  return inMemory(std::move(out));
+  return out;
 }
 
 }  // namespace farcell

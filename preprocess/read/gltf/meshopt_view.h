@@ -23,6 +23,7 @@ struct MeshoptCoding {
 Result<> checkMeshoptCoding(const GltfPlace& place, const MeshoptCoding& coding, uint64_t viewBytes);
 // REQUIRES: checked. `coded`: the bytes the coding names. Values - indices too - may be any: garbage decodes to
 // garbage.
-Result<ByteRange> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& coding, const ByteRange& coded);
+Result<std::vector<std::byte>> decodeMeshopt(const GltfPlace& place, const MeshoptCoding& coding,
+                                             const ByteRange& coded);
 
 }  // namespace farcell

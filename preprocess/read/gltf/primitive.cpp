@@ -126,7 +126,7 @@ Result<DracoMesh> decode(const GltfPlace& place, const GltfPrimitive& primitive,
        {primitive.position, primitive.normal, primitive.colour, primitive.textureCoordinates})
     if (attribute.dracoId) mesh.attributes.push_back({*attribute.dracoId, accessors.typeOnly(attribute.accessor)});
   FARCELL_ASSIGN(const ByteRange coded, buffers.bytes(*primitive.dracoView));
-  FARCELL_TRY(decodeDraco(place.in("extensions").in(kDracoExtension), coded, mesh));
+  FARCELL_TRY(decodeDraco(place.in("extensions").in(kDracoExtension), coded, buffers, mesh));
   return mesh;
 }
 

@@ -6,7 +6,7 @@
 namespace farcell {
 namespace {
 
-// Triangles of corners without indices are taken in windows of vertices: soup may be any size.
+// Corners without indices are read once for all instances, a window at a time: soup may be any size.
 constexpr uint64_t kWindowVertices = 3 * 16384;
 
 // Puts triangles of vertex numbers into the batch, as they stand in the world.
@@ -20,14 +20,14 @@ class TriangleEmitter {
         isPlaced_(!worldFromMesh.isIdentity()),
         isMirrored_(worldFromMesh.isMirrored()),
         batch_(batch) {
-    triangle_.texture = vertices.textureCoordinates.empty() ? kNoTexture : texture;
+    triangle_.texture = vertices.vertices.shape().hasTextureCoordinates ? texture : kNoTexture;
     triangle_.colours.fill(vertices.colour);
     triangle_.normals.fill(glm::vec3(0));
     triangle_.textureCoordinates.fill(glm::vec2(0));
   }
 
   void add(uint64_t a, uint64_t b, uint64_t c) {
-    const uint64_t count = vertices_.positions.size();
+    const uint64_t count = vertices_.vertices.count();
     if (a >= count || b >= count || c >= count) {
       batch_.skipBadIndex();
       return;
@@ -36,22 +36,20 @@ class TriangleEmitter {
     // A mirror turns what was counter-clockwise; glTF asks for it to face as before.
     setCorner(isMirrored_ ? 2 : 1, b);
     setCorner(isMirrored_ ? 1 : 2, c);
-    batch_.add(triangle_);
+    if (!vertices_.vertices.failure()) batch_.add(triangle_);
   }
-  bool failed() const { return batch_.failed(); }
+  bool failed() const { return batch_.failed() || vertices_.vertices.failure(); }
 
  private:
   void setCorner(size_t corner, uint64_t vertex) {
-    const glm::dvec3 position = glm::dvec3(vertices_.positions[vertex]) / vertices_.divisor;
+    vertices_.vertices.copyCorner(vertex, corner, triangle_);
+    const glm::dvec3 position = triangle_.positions[corner] / vertices_.divisor;
     triangle_.positions[corner] = isPlaced_ ? worldFromMesh_.linear * position + worldFromMesh_.offset : position;
-    if (!vertices_.normals.empty()) triangle_.normals[corner] = turned(vertices_.normals[vertex]);
-    if (!vertices_.colours.empty()) triangle_.colours[corner] = vertices_.colours[vertex];
-    if (!vertices_.textureCoordinates.empty())
-      triangle_.textureCoordinates[corner] = vertices_.textureCoordinates[vertex];
+    if (isPlaced_ && vertices_.vertices.shape().hasNormals)
+      triangle_.normals[corner] = turned(triangle_.normals[corner]);
   }
   // Of length 1 where the transform is not none: cofactors of large scales would not fit a float.
   glm::vec3 turned(glm::vec3 normal) const {
-    if (!isPlaced_) return normal;
     const glm::dvec3 out = normalMatrix_ * glm::dvec3(normal);
     const double length = glm::length(out);
     return length > 0 ? glm::vec3(out / length) : glm::vec3(0);
@@ -125,23 +123,21 @@ Result<> emitIndexed(const GltfPlace& place, const Elements& indices, Topology t
   return emitIndices<uint32_t>(place, indices, assembler, emitter);
 }
 
-Result<> emitWindows(const GltfPrimitive& primitive, const PrimitiveElements& elements,
-                     std::span<const GltfTransform> instances, VertexCache& cache, TriangleBatch& batch) {
+void emitWindows(const GltfPrimitive& primitive, const PrimitiveVertices& vertices,
+                 std::span<const GltfTransform> instances, TriangleBatch& batch) {
   const bool isWhole = primitive.topology != Topology::triangles;
   const uint64_t step = isWhole ? std::max<uint64_t>(1, primitive.vertices) : kWindowVertices;
   for (uint64_t first = 0; first < primitive.vertices && !batch.failed(); first += step) {
-    const VertexWindow window{first, std::min(step, primitive.vertices - first)};
-    FARCELL_ASSIGN(const PrimitiveVertices* vertices, cache.load(elements, primitive, window));
+    const uint64_t end = first + std::min(step, primitive.vertices - first);
     for (const GltfTransform& instance : instances) {
-      TriangleEmitter emitter(*vertices, instance, primitive.look.texture, batch);
+      TriangleEmitter emitter(vertices, instance, primitive.look.texture, batch);
       Assembler assembler(primitive.topology, emitter);
-      for (uint64_t i = 0; i < window.count && !emitter.failed(); ++i) assembler.corner(i);
+      for (uint64_t i = first; i < end && !emitter.failed(); ++i) assembler.corner(i);
     }
   }
-  return {};
 }
 
-// Whether the vertices of the two are alike in all that loadVertices() makes of them.
+// Whether the vertices of the two are alike in all that primitiveVertices() makes of them.
 bool haveSameVertices(const GltfPrimitive& a, const GltfPrimitive& b) {
   return !a.dracoView && !b.dracoView && a.position == b.position && a.normal == b.normal && a.colour == b.colour &&
          a.textureCoordinates == b.textureCoordinates && a.look.factor == b.look.factor &&
@@ -150,25 +146,30 @@ bool haveSameVertices(const GltfPrimitive& a, const GltfPrimitive& b) {
 
 }  // namespace
 
-Result<const PrimitiveVertices*> VertexCache::load(const PrimitiveElements& elements, const GltfPrimitive& primitive,
-                                                   VertexWindow window) {
-  const bool isWhole = window.count == primitive.vertices;
-  if (isWhole && loaded_ && haveSameVertices(*loaded_, primitive)) return &vertices_;
+void VertexCache::makeRoomFor(const GltfPrimitive& primitive) {
+  if (loaded_ && haveSameVertices(*loaded_, primitive)) return;
   loaded_.reset();
-  FARCELL_TRY(loadVertices(elements, primitive, window, vertices_));
-  if (isWhole) loaded_ = primitive;
-  return &vertices_;
+  vertices_.reset();
+}
+
+Result<const PrimitiveVertices*> VertexCache::load(const PrimitiveElements& elements, const GltfPrimitive& primitive) {
+  makeRoomFor(primitive);
+  if (loaded_) return &*vertices_;
+  FARCELL_ASSIGN(vertices_, primitiveVertices(elements, primitive, memory_));
+  loaded_ = primitive;
+  return &*vertices_;
 }
 
 Result<> emitTriangles(const GltfPlace& place, const GltfPrimitive& primitive, const PrimitiveElements& elements,
                        std::span<const GltfTransform> instances, VertexCache& cache, TriangleBatch& batch) {
-  if (!elements.indices) return emitWindows(primitive, elements, instances, cache, batch);
-  FARCELL_ASSIGN(const PrimitiveVertices* vertices, cache.load(elements, primitive, {0, primitive.vertices}));
-  for (const GltfTransform& instance : instances) {
+  FARCELL_ASSIGN(const PrimitiveVertices* vertices, cache.load(elements, primitive));
+  if (!elements.indices) emitWindows(primitive, *vertices, instances, batch);
+  for (const GltfTransform& instance : elements.indices ? instances : std::span<const GltfTransform>()) {
     TriangleEmitter emitter(*vertices, instance, primitive.look.texture, batch);
     FARCELL_TRY(emitIndexed(place, *elements.indices, primitive.topology, emitter));
     if (emitter.failed()) break;
   }
+  if (vertices->vertices.failure()) return tl::unexpected<Error>(*vertices->vertices.failure());
   return {};
 }
 

@@ -10,12 +10,16 @@ namespace farcell {
 // Vertices once loaded, for the next primitive that has the same.
 class VertexCache {
  public:
-  Result<const PrimitiveVertices*> load(const PrimitiveElements& elements, const GltfPrimitive& primitive,
-                                        VertexWindow window);
+  explicit VertexCache(std::shared_ptr<ReadMemory> memory) : memory_(std::move(memory)) {}
+
+  // Gives back the memory of other vertices than those of `primitive`.
+  void makeRoomFor(const GltfPrimitive& primitive);
+  Result<const PrimitiveVertices*> load(const PrimitiveElements& elements, const GltfPrimitive& primitive);
 
  private:
-  std::optional<GltfPrimitive> loaded_;  // whole
-  PrimitiveVertices vertices_;
+  std::shared_ptr<ReadMemory> memory_;
+  std::optional<GltfPrimitive> loaded_;
+  std::optional<PrimitiveVertices> vertices_;
 };
 
 // Triangles into the batch, until it has failed. corrupt for an index that restarts (the largest of its type).

@@ -6,6 +6,11 @@
 namespace farcell {
 namespace {
 
+struct VertexWindow {
+  uint64_t first = 0;
+  uint64_t count = 0;
+};
+
 // Calls take(numbers) for the window's elements: numbers as in the file, -128 and -32768 of normalised ones as the
 // values above them (glTF 2.0, 3.6.2.2); components that are not there are 0.
 template <class Take>
@@ -71,24 +76,60 @@ Result<> loadTextureCoordinates(const Elements& elements, VertexWindow window, c
   });
 }
 
+// Makes rows of vertices of the elements.
+class RowLoader {
+ public:
+  RowLoader(const PrimitiveElements& elements, const GltfPrimitive& primitive, VertexShape shape)
+      : elements_(elements), look_(primitive.look), shape_(shape) {}
+
+  Result<> operator()(uint64_t first, std::span<std::byte> out) {
+    const uint32_t rowBytes = shape_.rowBytes();
+    const VertexWindow window{first, out.size() / rowBytes};
+    FARCELL_TRY(load(window));
+    Vertex vertex;
+    for (size_t i = 0; i < window.count; ++i) {
+      vertex.position = glm::dvec3(positions_[i]);
+      if (shape_.hasColours) vertex.colour = colours_[i];
+      if (shape_.hasNormals) vertex.normal = normals_[i];
+      if (shape_.hasTextureCoordinates) vertex.textureCoordinates = textureCoordinates_[i];
+      shape_.put(vertex, out.data() + i * rowBytes);
+    }
+    return {};
+  }
+
+ private:
+  Result<> load(VertexWindow window) {
+    FARCELL_TRY(loadPoints(elements_.position, window, 1, positions_));
+    // Integers are normals only when normalised.
+    if (elements_.normal)
+      FARCELL_TRY(loadPoints(*elements_.normal, window, fullScale(elements_.normal->type), normals_));
+    if (elements_.colour) FARCELL_TRY(loadColours(*elements_.colour, window, look_.factor, colours_));
+    if (elements_.textureCoordinates)
+      FARCELL_TRY(loadTextureCoordinates(*elements_.textureCoordinates, window, look_.transform, textureCoordinates_));
+    return {};
+  }
+
+  PrimitiveElements elements_;
+  GltfLook look_;
+  VertexShape shape_;
+  std::vector<glm::vec3> positions_;
+  std::vector<glm::vec3> normals_;
+  std::vector<uint32_t> colours_;
+  std::vector<glm::vec2> textureCoordinates_;
+};
+
 }  // namespace
 
-Result<> loadVertices(const PrimitiveElements& elements, const GltfPrimitive& primitive, VertexWindow window,
-                      PrimitiveVertices& out) {
+Result<PrimitiveVertices> primitiveVertices(const PrimitiveElements& elements, const GltfPrimitive& primitive,
+                                            const std::shared_ptr<ReadMemory>& memory) {
+  const VertexShape shape{.hasColours = elements.colour.has_value(),
+                          .hasNormals = elements.normal.has_value(),
+                          .hasTextureCoordinates = elements.textureCoordinates.has_value()};
+  FARCELL_ASSIGN(Vertices vertices,
+                 Vertices::loaded(memory, shape, primitive.vertices, RowLoader(elements, primitive, shape)));
   const Elements& position = elements.position;
-  out.divisor = position.isNormalized ? fullScale(position.type) : 1;
-  FARCELL_TRY(loadPoints(position, window, 1, out.positions));
-  out.normals.clear();
-  out.colours.clear();
-  out.textureCoordinates.clear();
-  // Integers are normals only when normalised.
-  if (elements.normal) FARCELL_TRY(loadPoints(*elements.normal, window, fullScale(elements.normal->type), out.normals));
-  out.colour = primitive.plainColour;
-  if (elements.colour) FARCELL_TRY(loadColours(*elements.colour, window, primitive.look.factor, out.colours));
-  if (elements.textureCoordinates)
-    FARCELL_TRY(
-        loadTextureCoordinates(*elements.textureCoordinates, window, primitive.look.transform, out.textureCoordinates));
-  return {};
+  return PrimitiveVertices{std::move(vertices), position.isNormalized ? fullScale(position.type) : 1,
+                           primitive.plainColour};
 }
 
 }  // namespace farcell

@@ -1,26 +1,19 @@
-// The vertices of one primitive in memory, as its triangles need them.
+// The vertices of one primitive, as its triangles need them.
 #pragma once
 
+#include "preprocess/mesh/vertices.h"
 #include "preprocess/read/gltf/primitive.h"
 
 namespace farcell {
 
 struct PrimitiveVertices {
-  std::vector<glm::vec3> positions;  // as in the file; divided by `divisor` they are the mesh's
-  double divisor = 1;
-  std::vector<glm::vec3> normals;  // empty: none
-  std::vector<uint32_t> colours;   // 0x00BBGGRR, display values; empty: all as `colour`
-  uint32_t colour = 0;
-  std::vector<glm::vec2> textureCoordinates;  // v up; empty: none
+  Vertices vertices;    // display values; positions as in the file
+  double divisor = 1;   // positions divided by it are the mesh's
+  uint32_t colour = 0;  // 0x00BBGGRR, display values: of all, where the vertices have none
 };
 
-struct VertexWindow {
-  uint64_t first = 0;
-  uint64_t count = 0;
-};
-
-// `out` keeps its memory from one call to the next.
-Result<> loadVertices(const PrimitiveElements& elements, const GltfPrimitive& primitive, VertexWindow window,
-                      PrimitiveVertices& out);
+// Loaded from where the elements lie when they are asked for.
+Result<PrimitiveVertices> primitiveVertices(const PrimitiveElements& elements, const GltfPrimitive& primitive,
+                                            const std::shared_ptr<ReadMemory>& memory);
 
 }  // namespace farcell

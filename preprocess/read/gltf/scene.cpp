@@ -107,7 +107,7 @@ Result<std::vector<std::vector<GltfTransform>>> readInstances(const tinygltf::Mo
       const auto mesh = static_cast<size_t>(node.mesh);
       if (mesh >= instances.size())
         return place.in("mesh").bad(fmt::format("one of {} meshes", instances.size()), std::to_string(node.mesh));
-      FARCELL_TRY(addInstances(place, node, worldFromNode, accessors, instances[mesh]));
+      FARCELL_TRY(addInstances(place, node, worldFromNode, buffers, accessors, instances[mesh]));
     }
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       open.push_back({static_cast<uint32_t>(*child), worldFromNode});

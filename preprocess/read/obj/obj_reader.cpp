@@ -1,7 +1,6 @@
 #include "preprocess/read/obj/obj_reader.h"
 
 #include <array>
-#include <cmath>
 #include <unordered_set>
 
 #include "preprocess/mesh/number_text.h"
@@ -16,10 +15,16 @@ namespace {
 
 // Everything but the faces, and what the faces say about themselves as a whole.
 struct ObjContents {
+  explicit ObjContents(const std::shared_ptr<ReadMemory>& memory)
+      : vertices(memory, {.isWide = true, .hasColours = true}), normals(memory), coordinates(memory) {}
+
   Vertices vertices;
-  std::vector<glm::vec2> coordinates;             // of textures
+  PagedArray<glm::vec3> normals;
+  PagedArray<glm::vec2> coordinates;              // of textures
+  MemoryClaim names;                              // for the next two
   std::vector<std::string> libraries;             // rests of mtllib statements
   std::unordered_set<std::string> usedMaterials;  // by at least one face
+  bool hasColours = false;                        // at least one vertex
   uint64_t triangles = 0;
   bool everyCornerHasNormal = true;
   uint64_t greatestNormal = 0;
@@ -28,7 +33,8 @@ struct ObjContents {
 // The first pass.
 class ObjScan {
  public:
-  explicit ObjScan(const InputFile& file) : lines_(file) { contents_.vertices.isWide = true; }
+  ObjScan(const InputFile& file, std::shared_ptr<ReadMemory> memory)
+      : memory_(std::move(memory)), lines_(file), contents_(memory_) {}
 
   Result<ObjContents> run() {
     bool anything = false;
@@ -43,7 +49,10 @@ class ObjScan {
         material_ = trimmed(line);
         materialIsUsed_ = false;
       }
-      if (keyword == "mtllib") contents_.libraries.emplace_back(trimmed(line));
+      if (keyword == "mtllib") {
+        FARCELL_TRY(claimName(trimmed(line)));
+        contents_.libraries.emplace_back(trimmed(line));
+      }
       if (keyword.find('\0') != std::string_view::npos) return lines_.bad("text", "a zero byte");
     }
     if (lines_.failure()) return tl::unexpected<Error>(*lines_.failure());
@@ -56,7 +65,9 @@ class ObjScan {
   Result<> addCoordinates(std::string_view rest);
   Result<> addNormal(std::string_view rest);
   Result<> countFace(std::string_view rest);
+  Result<> claimName(std::string_view name);
 
+  std::shared_ptr<ReadMemory> memory_;
   ObjLines lines_;
   ObjContents contents_;
   std::string material_;
@@ -69,15 +80,13 @@ Result<> ObjScan::addVertex(std::string_view rest) {
   for (std::string_view word = takeWord(rest); !word.empty() && count < values.size(); word = takeWord(rest))
     if (!parseNumber(word, values[count++])) return lines_.bad("a number", word);
   if (count < 3) return lines_.bad("three coordinates after 'v'", fmt::format("{} numbers", count));
-  Vertices& vertices = contents_.vertices;
-  vertices.wide.emplace_back(values[0], values[1], values[2]);
-  vertices.allFinite &= std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
+  Vertex vertex;
+  vertex.position = glm::dvec3(values[0], values[1], values[2]);
   // x y z r g b, perhaps with an alpha; four or five numbers are a weight.
   const bool hasColour = count >= 6;
-  if (hasColour && vertices.colours.empty()) vertices.colours.resize(vertices.wide.size() - 1, kNoColour);
-  if (hasColour) vertices.colours.push_back(packColour(values[3], values[4], values[5]));
-  if (!hasColour && !vertices.colours.empty()) vertices.colours.push_back(kNoColour);
-  return {};
+  if (hasColour) vertex.colour = packColour(values[3], values[4], values[5]);
+  contents_.hasColours |= hasColour;
+  return contents_.vertices.append(vertex);
 }
 
 Result<> ObjScan::addCoordinates(std::string_view rest) {
@@ -85,8 +94,7 @@ Result<> ObjScan::addCoordinates(std::string_view rest) {
   const std::string_view first = takeWord(rest), second = takeWord(rest);
   if (!parseNumber(first, at.x)) return lines_.bad("one to three numbers after 'vt'", first);
   if (!second.empty() && !parseNumber(second, at.y)) return lines_.bad("one to three numbers after 'vt'", second);
-  contents_.coordinates.push_back(at);
-  return {};
+  return contents_.coordinates.append(at);
 }
 
 Result<> ObjScan::addNormal(std::string_view rest) {
@@ -95,13 +103,19 @@ Result<> ObjScan::addNormal(std::string_view rest) {
     const std::string_view word = takeWord(rest);
     if (!parseNumber(word, value)) return lines_.bad("three numbers after 'vn'", word);
   }
-  contents_.vertices.normals.emplace_back(values[0], values[1], values[2]);
+  return contents_.normals.append(glm::vec3(values[0], values[1], values[2]));
+}
+
+Result<> ObjScan::claimName(std::string_view name) {
+  constexpr uint64_t kBytesBeside = 128;  // of a string and its place in a table
+  FARCELL_ASSIGN(MemoryClaim claim, memory_->claim(name.size() + kBytesBeside,
+                                                   fmt::format("{}: names of materials", lines_.file().path())));
+  contents_.names.add(std::move(claim));
   return {};
 }
 
 Result<> ObjScan::countFace(std::string_view rest) {
-  const ObjCounts counts{contents_.vertices.wide.size(), contents_.coordinates.size(),
-                         contents_.vertices.normals.size()};
+  const ObjCounts counts{contents_.vertices.count(), contents_.coordinates.size(), contents_.normals.size()};
   uint64_t corners = 0;
   ObjCorner corner;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest), ++corners) {
@@ -110,7 +124,10 @@ Result<> ObjScan::countFace(std::string_view rest) {
     if (corner.hasNormal) contents_.greatestNormal = std::max(contents_.greatestNormal, corner.normal);
   }
   if (corners >= 3) contents_.triangles += corners - 2;
-  if (!materialIsUsed_) contents_.usedMaterials.insert(material_);
+  if (!materialIsUsed_ && !contents_.usedMaterials.contains(material_)) {
+    FARCELL_TRY(claimName(material_));
+    contents_.usedMaterials.insert(material_);
+  }
   materialIsUsed_ = true;
   return {};
 }
@@ -119,17 +136,17 @@ class ObjReader final : public MeshReader {
  public:
   ObjReader(InputFile file, ObjContents contents, ObjMaterials materials)
       : file_(std::move(file)),
-        vertices_(std::move(contents.vertices)),
+        contents_(std::move(contents)),
         materials_(std::move(materials)),
-        looks_(materials_, contents.usedMaterials) {
+        looks_(materials_, contents_.usedMaterials) {
     info_.format = "OBJ";
     info_.up = UpAxis::y;
-    info_.vertices = vertices_.count();
-    info_.declaredTriangles = contents.triangles;
-    info_.hasColours = !vertices_.colours.empty() || !looks_.empty();
-    if (!looks_.textures().empty()) coordinates_ = std::move(contents.coordinates);
-    info_.hasNormals = contents.everyCornerHasNormal && contents.greatestNormal < vertices_.normals.size();
-    if (!info_.hasNormals) vertices_.normals = {};
+    info_.vertices = contents_.vertices.count();
+    info_.declaredTriangles = contents_.triangles;
+    info_.hasColours = contents_.hasColours || !looks_.empty();
+    if (looks_.textures().empty()) contents_.coordinates.clear();
+    info_.hasNormals = contents_.everyCornerHasNormal && contents_.greatestNormal < contents_.normals.size();
+    if (!info_.hasNormals) contents_.normals.clear();
   }
 
   const MeshInfo& info() const override { return info_; }
@@ -145,12 +162,13 @@ class ObjReader final : public MeshReader {
 
  private:
   TriangleBatch::FaceLook lookOf(const ObjLook& look, const std::array<ObjCorner, 3>& corners) const;
+  using Normals = std::array<glm::vec3, 3>;
+  Normals normalsOf(const std::array<ObjCorner, 3>& corners) const;
   Result<> addFace(const ObjLines& lines, std::string_view rest, const ObjCounts& counts, const ObjLook& look,
                    TriangleBatch& batch) const;
 
   InputFile file_;
-  Vertices vertices_;
-  std::vector<glm::vec2> coordinates_;  // empty without textures
+  ObjContents contents_;  // without textures no coordinates, without info().hasNormals no normals
   ObjMaterials materials_;
   ObjLooks looks_;
   MeshInfo info_;
@@ -161,10 +179,18 @@ TriangleBatch::FaceLook ObjReader::lookOf(const ObjLook& look, const std::array<
   if (look.texture == kNoTexture) return {look.colour};
   TriangleBatch::FaceLook textured{look.texturedColour, look.texture};
   for (size_t k = 0; k < 3; ++k) {
-    if (corners[k].coordinates >= coordinates_.size()) return {look.colour};
-    textured.textureCoordinates[k] = coordinates_[corners[k].coordinates] * look.scale + look.offset;
+    if (corners[k].coordinates >= contents_.coordinates.size()) return {look.colour};
+    textured.textureCoordinates[k] = contents_.coordinates[corners[k].coordinates] * look.scale + look.offset;
   }
   return textured;
+}
+
+// Zero where the mesh has none, or the file has others by now.
+ObjReader::Normals ObjReader::normalsOf(const std::array<ObjCorner, 3>& corners) const {
+  Normals normals{};
+  for (size_t k = 0; k < 3; ++k)
+    if (corners[k].normal < contents_.normals.size()) normals[k] = contents_.normals[corners[k].normal];
+  return normals;
 }
 
 // The triangles of one face, a fan around its first corner.
@@ -178,15 +204,15 @@ Result<> ObjReader::addFace(const ObjLines& lines, std::string_view rest, const 
     if (!parseObjCorner(word, counts, corner)) return lines.bad("a face corner", word);
     if (corners == 0) first = corner;
     if (corners >= 2)
-      batch.add({first.position, last.position, corner.position}, {first.normal, last.normal, corner.normal},
-                lookOf(look, {first, last, corner}));
+      batch.add({first.position, last.position, corner.position}, lookOf(look, {first, last, corner}),
+                normalsOf({first, last, corner}));
     last = corner;
   }
   return {};
 }
 
 Result<MeshCounts> ObjReader::forEachTriangle(const Sink& sink) {
-  TriangleBatch batch(vertices_, sink);
+  TriangleBatch batch(contents_.vertices, sink);
   ObjLines lines(file_);
   ObjCounts counts;
   const ObjLook* look = &looks_.find("");
@@ -204,8 +230,8 @@ Result<MeshCounts> ObjReader::forEachTriangle(const Sink& sink) {
 
 }  // namespace
 
-Result<std::unique_ptr<MeshReader>> openObj(InputFile file) {
-  FARCELL_ASSIGN(ObjContents contents, ObjScan(file).run());
+Result<std::unique_ptr<MeshReader>> openObj(InputFile file, const std::shared_ptr<ReadMemory>& memory) {
+  FARCELL_ASSIGN(ObjContents contents, ObjScan(file, memory).run());
   ObjMaterials materials(std::filesystem::path(file.path()).parent_path());
   for (const std::string& names : contents.libraries) materials.addLibraries(names);
   return std::make_unique<ObjReader>(std::move(file), std::move(contents), std::move(materials));

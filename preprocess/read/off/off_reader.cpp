@@ -11,18 +11,18 @@ namespace {
 // What the first reading finds.
 struct OffContents {
   OffHeader header;
-  Vertices vertices;
+  std::optional<Vertices> vertices;  // always, once read
   TextPlace faces;
   uint64_t triangles = 0;
   bool hasFaceColours = false;
   bool wholeAreBytes = false;  // of the faces
 };
 
-Result<OffContents> scan(const InputFile& file) {
+Result<OffContents> scan(const InputFile& file, const std::shared_ptr<ReadMemory>& memory) {
   TextLines lines(file, TextLines::Continuation::none);
   OffContents contents;
   FARCELL_ASSIGN(contents.header, readOffHeader(lines));
-  FARCELL_ASSIGN(contents.vertices, readOffVertices(lines, contents.header));
+  FARCELL_ASSIGN(contents.vertices, readOffVertices(lines, contents.header, memory));
   contents.faces = lines.nextPlace();
   OffFace face;
   for (uint64_t index = 0; index < contents.header.faces; ++index) {
@@ -46,7 +46,7 @@ class OffReader final : public MeshReader {
     info_.hasColours = keyword.hasColours || contents_.hasFaceColours;
     info_.hasNormals = keyword.hasNormals;
     info_.declaredTriangles = contents_.triangles;
-    info_.vertices = contents_.vertices.count();
+    info_.vertices = contents_.vertices->count();
   }
 
   const MeshInfo& info() const override { return info_; }
@@ -62,14 +62,11 @@ class OffReader final : public MeshReader {
 // A fan around the first corner.
 void addFace(const OffFace& face, uint32_t colour, TriangleBatch& batch) {
   const auto corner = [&](size_t i) { return static_cast<uint64_t>(face.corners[i]); };
-  for (size_t i = 2; i < face.corners.size(); ++i) {
-    const TriangleBatch::Indices indices = {corner(0), corner(i - 1), corner(i)};
-    batch.add(indices, indices, {colour});
-  }
+  for (size_t i = 2; i < face.corners.size(); ++i) batch.add({corner(0), corner(i - 1), corner(i)}, {colour});
 }
 
 Result<MeshCounts> OffReader::forEachTriangle(const Sink& sink) {
-  TriangleBatch batch(contents_.vertices, sink);
+  TriangleBatch batch(*contents_.vertices, sink);
   TextLines lines(file_, TextLines::Continuation::none, contents_.faces);
   const OffHeader& header = contents_.header;
   OffFace face;
@@ -91,8 +88,8 @@ bool startsLikeOff(const InputFile& file) {
   return parseOffKeyword(start.substr(0, start.find_first_of(" \t\r\n#"))).has_value();
 }
 
-Result<std::unique_ptr<MeshReader>> openOff(InputFile file) {
-  FARCELL_ASSIGN(OffContents contents, scan(file));
+Result<std::unique_ptr<MeshReader>> openOff(InputFile file, const std::shared_ptr<ReadMemory>& memory) {
+  FARCELL_ASSIGN(OffContents contents, scan(file, memory));
   return std::make_unique<OffReader>(std::move(file), std::move(contents));
 }
 

@@ -10,6 +10,7 @@
 
 #include "cache/base/file.h"
 #include "preprocess/mesh/mesh_reader.h"
+#include "preprocess/mesh/read_memory.h"
 
 namespace farcell {
 
@@ -18,6 +19,6 @@ bool startsLikeOff(const InputFile& file);
 
 // Reads the whole file once (vertices are kept, faces counted and checked). unsupported, by name, for binary files and
 // those of other dimensions (4OFF, nOFF).
-Result<std::unique_ptr<MeshReader>> openOff(InputFile file);
+Result<std::unique_ptr<MeshReader>> openOff(InputFile file, const std::shared_ptr<ReadMemory>& memory);
 
 }  // namespace farcell

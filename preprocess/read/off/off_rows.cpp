@@ -1,6 +1,8 @@
 #include "preprocess/read/off/off_rows.h"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <span>
 
 #include "preprocess/mesh/number_text.h"
 
@@ -31,13 +33,10 @@ bool parsePoint(std::span<const std::string_view> words, T& point) {
 
 class VertexReader {
  public:
-  VertexReader(TextLines& lines, const OffHeader& header) : lines_(lines), keyword_(header.keyword) {
-    const auto count = static_cast<size_t>(header.vertices);
-    vertices_.isWide = true;
-    vertices_.wide.reserve(count);
-    if (keyword_.hasNormals) vertices_.normals.reserve(count);
-    if (keyword_.hasColours) vertices_.colours.reserve(count);
-  }
+  VertexReader(TextLines& lines, const OffHeader& header, const std::shared_ptr<ReadMemory>& memory)
+      : lines_(lines),
+        keyword_(header.keyword),
+        vertices_(memory, {.isWide = true, .hasColours = keyword_.hasColours, .hasNormals = keyword_.hasNormals}) {}
 
   Result<> add(std::string_view line) {
     const VertexWords row(line);
@@ -47,43 +46,32 @@ class VertexReader {
       return lines_.bad(
           fmt::format("a vertex of {} numbers{}", fixed, keyword_.hasColours ? " and three or four of a colour" : ""),
           line);
-    const bool areNumbers = addPosition(row.part(0, 3)) && (!keyword_.hasNormals || addNormal(row.part(3, 3))) &&
-                            (!keyword_.hasColours || addColour(row.part(keyword_.hasNormals ? 6 : 3, channels)));
+    Vertex vertex;
+    const bool areNumbers =
+        parsePoint(row.part(0, 3), vertex.position) &&
+        (!keyword_.hasNormals || parsePoint(row.part(3, 3), vertex.normal)) &&
+        (!keyword_.hasColours || parseColour(row.part(keyword_.hasNormals ? 6 : 3, channels), vertex.colour));
     if (!areNumbers) return lines_.bad("a vertex of numbers", line);
-    return {};
+    return vertices_.append(vertex);
   }
 
-  Vertices finish() {
+  Result<Vertices> finish() {
     // Taken for bytes so far; a file without any above 1 has only zeros and ones to be made whole channels.
-    for (uint32_t& colour : vertices_.colours) {
-      const bool isWhole = (colour & kWholeRow) != 0;
-      colour &= ~kWholeRow;
-      if (isWhole && !wholeAreBytes_) colour *= 255;
-    }
+    if (keyword_.hasColours)
+      FARCELL_TRY(vertices_.recolour([this](uint32_t colour) {
+        const bool isWhole = (colour & kWholeRow) != 0;
+        colour &= ~kWholeRow;
+        return isWhole && !wholeAreBytes_ ? colour * 255 : colour;
+      }));
     return std::move(vertices_);
   }
 
  private:
-  using Words = std::span<const std::string_view>;
-
-  bool addPosition(Words words) {
-    glm::dvec3 position;
-    if (!parsePoint(words, position)) return false;
-    vertices_.wide.push_back(position);
-    vertices_.allFinite &= std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
-    return true;
-  }
-  bool addNormal(Words words) {
-    glm::vec3 normal;
-    if (!parsePoint(words, normal)) return false;
-    vertices_.normals.push_back(normal);
-    return true;
-  }
-  bool addColour(Words words) {
+  bool parseColour(std::span<const std::string_view> words, uint32_t& packed) {
     OffColour colour;
     if (!parseOffColour(words, colour)) return false;
     wholeAreBytes_ |= colour.isWhole && colour.exceedsOne();
-    vertices_.colours.push_back(colour.packed(true) | (colour.isWhole ? kWholeRow : 0));
+    packed = colour.packed(true) | (colour.isWhole ? kWholeRow : 0);
     return true;
   }
 
@@ -95,8 +83,8 @@ class VertexReader {
 
 }  // namespace
 
-Result<Vertices> readOffVertices(TextLines& lines, const OffHeader& header) {
-  VertexReader reader(lines, header);
+Result<Vertices> readOffVertices(TextLines& lines, const OffHeader& header, const std::shared_ptr<ReadMemory>& memory) {
+  VertexReader reader(lines, header, memory);
   std::string_view line;
   for (uint64_t index = 0; index < header.vertices; ++index) {
     if (!nextOffLine(lines, line)) return lines.ended(fmt::format("vertex {} of {}", index, header.vertices));

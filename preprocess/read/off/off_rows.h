@@ -10,7 +10,7 @@
 namespace farcell {
 
 // All vertices; `lines` is at the last line of the header.
-Result<Vertices> readOffVertices(TextLines& lines, const OffHeader& header);
+Result<Vertices> readOffVertices(TextLines& lines, const OffHeader& header, const std::shared_ptr<ReadMemory>& memory);
 
 struct OffFace {
   std::vector<int64_t> corners;  // as written

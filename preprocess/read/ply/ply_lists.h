@@ -1,6 +1,7 @@
 // Walking the rows of an element that says which vertices make triangles: the same code counts and emits.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -77,6 +78,11 @@ template <class Source, class Visitor>
 bool visitList(Source& source, const PlyProperty& list, Visitor& visitor) {
   int64_t count = 0;
   if (!listCount(source, list, count)) return false;
+  // The length says how many triangles a polygon is; what a text has for indices must be looked at all the same.
+  if constexpr (!Source::kText && std::is_same_v<Visitor, FanVisitor<TriangleCounter>>) {
+    visitor.taker.count += uint64_t(std::max<int64_t>(count - 2, 0));
+    return source.skip(list.type, uint64_t(count));
+  }
   visitor.begin();
   for (int64_t i = 0, value = 0; i < count; ++i) {
     if (!source.integer(list.type, value)) return false;
@@ -94,24 +100,49 @@ bool visitRow(Source& source, const PlyElement& element, size_t list, Visitor& v
   return true;
 }
 
-// The layout nearly every binary file has: rows of nothing but a byte, 3, and three 32-bit indices. Takes as many of
-// them as are at the cursor, at most `rows`, and returns their number.
+// The layout nearly every binary file has: rows of nothing but a byte, 3, and three 32-bit indices.
+template <class Index, class Source>
+struct TriangleRow {
+  static constexpr size_t kBytes = 1 + 3 * sizeof(Index);
+  const std::byte* at;
+
+  bool isTriangle() const { return *at == std::byte{3}; }
+  TriangleBatch::Indices corners() const { return {index(0), index(1), index(2)}; }
+  uint64_t index(size_t i) const {
+    return uint64_t(int64_t{loadScalar<Index, Source::kSwap>(at + 1 + i * sizeof(Index))});
+  }
+};
+
+// The first of `rows` rows that are all triangles: their number, which the counter is told.
+template <class Row>
+uint64_t takeRows(const std::byte* at, uint64_t rows, TriangleCounter& counter) {
+  uint64_t row = 0;
+  while (row < rows && Row{at + row * Row::kBytes}.isTriangle()) ++row;
+  counter.count += row;
+  return row;
+}
+
+template <class Row>
+uint64_t takeRows(const std::byte* at, uint64_t rows, TriangleBatch& batch) {
+  constexpr uint64_t kAhead = 12;  // rows for memory to answer in
+  uint64_t row = 0;
+  for (; row < rows && Row{at}.isTriangle(); ++row, at += Row::kBytes) {
+    if (row + kAhead < rows) batch.prefetch(Row{at + kAhead * Row::kBytes}.corners());
+    batch.add(Row{at}.corners());
+  }
+  return row;
+}
+
+// As many such rows as are at the cursor, at most `rows`; their number.
 template <class Index, class Source, class Taker>
 uint64_t takeTriangleRows(Source& source, uint64_t rows, Taker& taker) {
-  constexpr size_t kRowBytes = 1 + 3 * sizeof(Index);
+  using Row = TriangleRow<Index, Source>;
   ByteStream& stream = source.stream();
-  if (!stream.need(kRowBytes)) return 0;
-  const std::byte* at = stream.cursor();
-  const uint64_t here = std::min<uint64_t>(rows, stream.available() / kRowBytes);
-  uint64_t row = 0;
-  for (; row < here && *at == std::byte{3}; ++row, at += kRowBytes) {
-    const auto index = [at](size_t i) {
-      return uint64_t(int64_t{loadScalar<Index, Source::kSwap>(at + 1 + i * sizeof(Index))});
-    };
-    taker.add({index(0), index(1), index(2)});
-  }
-  stream.advance(static_cast<size_t>(row * kRowBytes));
-  return row;
+  if (!stream.need(Row::kBytes)) return 0;
+  const uint64_t here = std::min<uint64_t>(rows, stream.available() / Row::kBytes);
+  const uint64_t taken = takeRows<Row>(stream.cursor(), here, taker);
+  stream.advance(static_cast<size_t>(taken * Row::kBytes));
+  return taken;
 }
 
 inline bool isCommonLayout(const PlyElement& element) {

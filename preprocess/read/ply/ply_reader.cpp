@@ -16,7 +16,7 @@ struct TriangleElement {
 
 // What one walk through the body finds.
 struct PlyBody {
-  Vertices vertices;
+  std::optional<Vertices> vertices;  // after the walk always
   std::vector<TriangleElement> triangleElements;
   uint64_t declaredTriangles = 0;
 };
@@ -70,13 +70,13 @@ Result<> skipElement(Source& source, const PlyElement& element) {
 }
 
 template <class Source>
-Result<PlyBody> walkBody(Source& source, const PlyHeader& header) {
+Result<PlyBody> walkBody(Source& source, const std::shared_ptr<const InputFile>& file, const PlyHeader& header,
+                         const std::shared_ptr<ReadMemory>& memory) {
   PlyBody body;
   for (size_t i = 0; i < header.elements.size(); ++i) {
     const PlyElement& element = header.elements[i];
     if (element.name == "vertex") {
-      FARCELL_ASSIGN(const PlyVertexLayout layout, plyVertexLayout(source.file(), element));
-      FARCELL_ASSIGN(body.vertices, readPlyVertices(source, element, layout));
+      FARCELL_ASSIGN(body.vertices, readPlyVertices(source, file, element, memory));
     } else if (element.name == "face" || element.name == "tristrips") {
       FARCELL_TRY(walkTriangles(source, header, i, body));
     } else {
@@ -108,23 +108,23 @@ std::string formatName(PlyEncoding encoding) {
 
 class PlyReader final : public MeshReader {
  public:
-  PlyReader(InputFile file, PlyHeader header, PlyBody body)
+  PlyReader(std::shared_ptr<const InputFile> file, PlyHeader header, PlyBody body)
       : file_(std::move(file)), header_(std::move(header)), body_(std::move(body)) {
     info_.format = formatName(header_.encoding);
-    info_.hasColours = !body_.vertices.colours.empty();
-    info_.hasNormals = !body_.vertices.normals.empty();
-    info_.vertices = body_.vertices.count();
+    info_.hasColours = body_.vertices->shape().hasColours;
+    info_.hasNormals = body_.vertices->shape().hasNormals;
+    info_.vertices = body_.vertices->count();
     info_.declaredTriangles = body_.declaredTriangles;
   }
 
   const MeshInfo& info() const override { return info_; }
-  std::vector<std::filesystem::path> files() const override { return {file_.path()}; }
+  std::vector<std::filesystem::path> files() const override { return {file_->path()}; }
 
   Result<MeshCounts> forEachTriangle(const Sink& sink) override {
-    TriangleBatch batch(body_.vertices, sink);
+    TriangleBatch batch(*body_.vertices, sink);
     for (const TriangleElement& triangles : body_.triangleElements) {
       const PlyElement& element = header_.elements[triangles.element];
-      FARCELL_TRY(withSource(file_, header_.encoding, triangles.place, [&](auto& source) -> Result<> {
+      FARCELL_TRY(withSource(*file_, header_.encoding, triangles.place, [&](auto& source) -> Result<> {
         const uint64_t row = visitTriangles(source, element, triangles, batch);
         if (row != element.count && !batch.failed()) return badRow(source, element, row);
         return {};
@@ -134,7 +134,7 @@ class PlyReader final : public MeshReader {
   }
 
  private:
-  InputFile file_;
+  std::shared_ptr<const InputFile> file_;
   PlyHeader header_;
   PlyBody body_;
   MeshInfo info_;
@@ -158,13 +158,14 @@ Result<> checkElements(const InputFile& file, const PlyHeader& header) {
 
 }  // namespace
 
-Result<std::unique_ptr<MeshReader>> openPly(InputFile file) {
-  FARCELL_ASSIGN(PlyHeader header, readPlyHeader(file));
-  FARCELL_TRY(checkElements(file, header));
+Result<std::unique_ptr<MeshReader>> openPly(InputFile opened, const std::shared_ptr<ReadMemory>& memory) {
+  const auto file = std::make_shared<const InputFile>(std::move(opened));
+  FARCELL_ASSIGN(PlyHeader header, readPlyHeader(*file));
+  FARCELL_TRY(checkElements(*file, header));
   const PlyPlace start{header.bodyOffset, header.bodyLine};
-  FARCELL_ASSIGN(PlyBody body,
-                 withSource(file, header.encoding, start, [&](auto& source) { return walkBody(source, header); }));
-  return std::make_unique<PlyReader>(std::move(file), std::move(header), std::move(body));
+  FARCELL_ASSIGN(PlyBody body, withSource(*file, header.encoding, start,
+                                          [&](auto& source) { return walkBody(source, file, header, memory); }));
+  return std::make_unique<PlyReader>(file, std::move(header), std::move(body));
 }
 
 }  // namespace farcell

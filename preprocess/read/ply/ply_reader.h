@@ -5,10 +5,12 @@
 
 #include "cache/base/file.h"
 #include "preprocess/mesh/mesh_reader.h"
+#include "preprocess/mesh/read_memory.h"
 
 namespace farcell {
 
-// Reads the header, the vertices and, once, the face rows: a file that contradicts itself fails here, not later.
-Result<std::unique_ptr<MeshReader>> openPly(InputFile file);
+// Reads the header, the vertices where they are not of one size, and, once, the face rows: a file that contradicts
+// itself fails here, not later.
+Result<std::unique_ptr<MeshReader>> openPly(InputFile file, const std::shared_ptr<ReadMemory>& memory);
 
 }  // namespace farcell

@@ -1,111 +1,92 @@
 #include "preprocess/read/ply/ply_vertices.h"
 
-#include <cmath>
-
 #include "preprocess/read/ply/ply_lists.h"
+#include "preprocess/read/ply/ply_vertex_row.h"
 
 namespace farcell {
 namespace {
 
-std::optional<std::array<size_t, 3>> findColumns(const PlyElement& element, std::array<std::string_view, 3> names) {
-  std::array<size_t, 3> columns{};
-  for (size_t i = 0; i < 3; ++i) {
-    const std::optional<size_t> column = element.find(names[i]);
-    if (!column || element.properties[*column].countType) return std::nullopt;
-    columns[i] = *column;
-  }
-  return columns;
-}
-
-// What a full channel is in a type: 1 for reals, the largest value for the two unsigned types that are colours in
-// practice; other integers hold bytes.
-double fullChannel(PlyType type) {
-  if (isReal(type)) return 1;
-  return type == PlyType::uint16 ? 65535 : 255;
-}
-
-// A row's values that are used, in the order x y z, r g b, nx ny nz; 0 for what is not there.
-using RowValues = std::array<double, 9>;
-// For each property of the element: where its value goes, or kUnused.
-using Targets = std::vector<uint8_t>;
-constexpr uint8_t kUnused = 255;
-
-Targets targetsOf(const PlyElement& element, const PlyVertexLayout& layout) {
-  Targets targets(element.properties.size(), kUnused);
-  const auto set = [&](const std::array<size_t, 3>& columns, uint8_t first) {
-    for (size_t i = 0; i < 3; ++i) targets[columns[i]] = static_cast<uint8_t>(first + i);
-  };
-  if (layout.colour) set(*layout.colour, 3);
-  if (layout.normal) set(*layout.normal, 6);
-  set(layout.position, 0);
-  return targets;
+template <class Source>
+tl::unexpected<Error> badRow(const Source& source, const PlyElement& element, uint64_t row) {
+  return tl::unexpected<Error>(source.error(fmt::format("row {} of {} of element 'vertex'", row, element.count)));
 }
 
 template <class Source>
-bool readRow(Source& source, const PlyElement& element, const Targets& targets, RowValues& values) {
-  for (size_t i = 0; i < targets.size(); ++i) {
+bool readRow(Source& source, const PlyElement& element, const PlyVertexRow& row, PlyVertexRow::Values& values) {
+  for (size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const bool read =
-        targets[i] == kUnused ? skipProperty(source, property) : source.real(property.type, values[targets[i]]);
+    const std::optional<size_t> target = row.target(i);
+    const bool read = target ? source.real(property.type, values[*target]) : skipProperty(source, property);
     if (!read) return false;
   }
   return true;
 }
 
-Vertices allocate(const PlyElement& element, const PlyVertexLayout& layout) {
-  Vertices vertices;
-  const auto count = static_cast<size_t>(element.count);
-  vertices.isWide = layout.isWide;
-  (layout.isWide ? vertices.wide.reserve(count) : vertices.narrow.reserve(count));
-  if (layout.colour) vertices.colours.reserve(count);
-  if (layout.normal) vertices.normals.reserve(count);
+template <class Source>
+Result<Vertices> appendRows(Source& source, const PlyElement& element, const PlyVertexRow& row,
+                            const std::shared_ptr<ReadMemory>& memory) {
+  Vertices vertices(memory, row.shape());
+  PlyVertexRow::Values values{};
+  for (uint64_t i = 0; i < element.count; ++i) {
+    if (!readRow(source, element, row, values)) return badRow(source, element, i);
+    FARCELL_TRY(vertices.append(row.vertex(values)));
+  }
   return vertices;
 }
+
+// Makes rows of vertices of rows of the file.
+template <bool kSwap>
+class RowLoader {
+ public:
+  RowLoader(std::shared_ptr<const InputFile> file, uint64_t offset, PlyVertexRow row)
+      : file_(std::move(file)), offset_(offset), row_(std::move(row)) {}
+
+  Result<> operator()(uint64_t first, std::span<std::byte> out) {
+    const uint64_t fileRowBytes = row_.fileRowBytes();
+    const uint32_t rowBytes = row_.shape().rowBytes();
+    const size_t count = out.size() / rowBytes;
+    chunk_.resize(std::min<size_t>(count, std::max<size_t>(1, kChunkBytes / fileRowBytes)) * fileRowBytes);
+    for (size_t done = 0; done < count;) {
+      const size_t here = std::min(count - done, static_cast<size_t>(chunk_.size() / fileRowBytes));
+      FARCELL_TRY(file_->readAt(offset_ + (first + done) * fileRowBytes, std::span(chunk_).first(here * fileRowBytes)));
+      row_.decode<kSwap>(chunk_.data(), here, out.data() + done * rowBytes);
+      done += here;
+    }
+    return {};
+  }
+
+ private:
+  static constexpr size_t kChunkBytes = size_t{1} << 18;
+
+  std::shared_ptr<const InputFile> file_;
+  uint64_t offset_;
+  PlyVertexRow row_;
+  std::vector<std::byte> chunk_;
+};
 
 }  // namespace
 
-Result<PlyVertexLayout> plyVertexLayout(const InputFile& file, const PlyElement& element) {
-  PlyVertexLayout layout;
-  const auto position = findColumns(element, {"x", "y", "z"});
-  if (!position)
-    return corrupt(file.path(), 0, "properties x, y and z of element 'vertex', one number each",
-                   fmt::format("{} properties without them", element.properties.size()));
-  layout.position = *position;
-  layout.colour = findColumns(element, {"red", "green", "blue"});
-  layout.normal = findColumns(element, {"nx", "ny", "nz"});
-  for (const size_t column : layout.position) {
-    const PlyType type = element.properties[column].type;
-    layout.isWide |= type == PlyType::float64 || type == PlyType::int32 || type == PlyType::uint32;
-  }
-  return layout;
-}
-
 template <class Source>
-Result<Vertices> readPlyVertices(Source& source, const PlyElement& element, const PlyVertexLayout& layout) {
-  Vertices vertices = allocate(element, layout);
-  const Targets targets = targetsOf(element, layout);
-  std::array<double, 3> colourScale{};
-  for (size_t i = 0; layout.colour && i < 3; ++i)
-    colourScale[i] = 1 / fullChannel(element.properties[(*layout.colour)[i]].type);
-  RowValues v{};
-  for (uint64_t row = 0; row < element.count; ++row) {
-    if (!readRow(source, element, targets, v))
-      return tl::unexpected<Error>(source.error(fmt::format("row {} of {} of element 'vertex'", row, element.count)));
-    vertices.allFinite &= std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-    if (layout.isWide)
-      vertices.wide.emplace_back(v[0], v[1], v[2]);
-    else
-      vertices.narrow.emplace_back(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
-    if (layout.colour)
-      vertices.colours.push_back(packColour(v[3] * colourScale[0], v[4] * colourScale[1], v[5] * colourScale[2]));
-    if (layout.normal)
-      vertices.normals.emplace_back(static_cast<float>(v[6]), static_cast<float>(v[7]), static_cast<float>(v[8]));
+Result<Vertices> readPlyVertices(Source& source, const std::shared_ptr<const InputFile>& file,
+                                 const PlyElement& element, const std::shared_ptr<ReadMemory>& memory) {
+  FARCELL_ASSIGN(PlyVertexRow row, PlyVertexRow::of(*file, element));
+  if constexpr (!Source::kText) {
+    if (!element.hasLists()) {
+      const VertexShape shape = row.shape();
+      RowLoader<Source::kSwap> loader(file, source.place().offset, std::move(row));
+      // readPlyHeader has checked that the product fits the file.
+      if (!source.skip(PlyType::uint8, element.count * element.rowBytes())) return badRow(source, element, 0);
+      return Vertices::loaded(memory, shape, element.count, std::move(loader));
+    }
   }
-  return vertices;
+  return appendRows(source, element, row, memory);
 }
 
-template Result<Vertices> readPlyVertices(PlyBinarySource<false>&, const PlyElement&, const PlyVertexLayout&);
-template Result<Vertices> readPlyVertices(PlyBinarySource<true>&, const PlyElement&, const PlyVertexLayout&);
-template Result<Vertices> readPlyVertices(PlyTextSource&, const PlyElement&, const PlyVertexLayout&);
+template Result<Vertices> readPlyVertices(PlyBinarySource<false>&, const std::shared_ptr<const InputFile>&,
+                                          const PlyElement&, const std::shared_ptr<ReadMemory>&);
+template Result<Vertices> readPlyVertices(PlyBinarySource<true>&, const std::shared_ptr<const InputFile>&,
+                                          const PlyElement&, const std::shared_ptr<ReadMemory>&);
+template Result<Vertices> readPlyVertices(PlyTextSource&, const std::shared_ptr<const InputFile>&, const PlyElement&,
+                                          const std::shared_ptr<ReadMemory>&);
 
 }  // namespace farcell

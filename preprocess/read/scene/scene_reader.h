@@ -9,15 +9,17 @@
 #include <memory>
 #include <optional>
 
+#include "preprocess/mesh/read_memory.h"
 #include "preprocess/read/scene/placement.h"
 
 namespace farcell {
 
-inline constexpr size_t kMaxSceneFiles = 1000;  // each stays open, and its vertices in memory
+inline constexpr size_t kMaxSceneFiles = 1000;  // each stays open
 
 struct ScenePart {
   std::unique_ptr<MeshReader> mesh;
   std::vector<Placement> placements;  // at least one
+  MemoryClaim claim;                  // to them
 };
 
 struct SceneOptions {
