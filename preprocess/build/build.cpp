@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "cache/base/parallel.h"
@@ -21,6 +23,29 @@ constexpr size_t kCellsAhead = 256;  // finished cells that may wait for a slowe
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+constexpr uint64_t kPartitionMemoryBytes = uint64_t{1} << 30;
+
+// A directory of this build alone, gone with it.
+class WorkDirectory {
+ public:
+  static Result<WorkDirectory> create(const std::filesystem::path& parent) {
+    std::string name = (parent / "farcell-work.XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      return fail(ErrorKind::io, "{}: cannot create a directory in it", parent.string());
+    return WorkDirectory(name);
+  }
+  WorkDirectory(WorkDirectory&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  ~WorkDirectory() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit WorkDirectory(std::filesystem::path path) : path_(std::move(path)) {}
+  std::filesystem::path path_;
+};
 
 // Adds a finished cell to the pack and to the report.
 Result<> writeCell(uint32_t cell, const CellPages& pages, PackWriter& writer, Directory& directory) {
@@ -120,7 +145,9 @@ Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, con
   FARCELL_ASSIGN(directory.sourceHash, sourceHash(*reader));
   FARCELL_ASSIGN(const Textures textures, Textures::open(reader->textures(), scratch, threads, progress));
   result.textures = {textures.count() - textures.leftOut().size(), textures.leftOut()};
-  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, settings, scratch, threads, progress));
+  FARCELL_ASSIGN(const WorkDirectory work, WorkDirectory::create(scratch));
+  const PartitionOptions partitionOptions{work.path(), threads, kPartitionMemoryBytes};
+  FARCELL_ASSIGN(const Partition partition, partitionMesh(*reader, settings, partitionOptions, progress));
   CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   directory.model = {partition.grid, partition.bounds, settings, reader->info().hasNormals, reader->info().hasColours};
   directory.report.inputTriangles = partition.counts.accepted;
