@@ -167,15 +167,14 @@ Result<> OutputFile::commit() {
   return syncDirectoryOf(path_);
 }
 
-ScratchFile::ScratchFile(int descriptor, std::string directory)
-    : descriptor_(descriptor), directory_(std::move(directory)) {}
+ScratchFile::ScratchFile(int descriptor, std::string path) : descriptor_(descriptor), path_(std::move(path)) {}
 
 ScratchFile::ScratchFile(ScratchFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), directory_(std::move(other.directory_)) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
 
 ScratchFile& ScratchFile::operator=(ScratchFile&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
-  std::swap(directory_, other.directory_);
+  std::swap(path_, other.path_);
   return *this;
 }
 
@@ -191,12 +190,34 @@ Result<ScratchFile> ScratchFile::create(const std::filesystem::path& directory) 
   return ScratchFile(descriptor, directory.string());
 }
 
+Result<ScratchFile> ScratchFile::open(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (descriptor < 0) return ioError(path, "cannot open", errno);
+  return ScratchFile(descriptor, path.string());
+}
+
 Result<> ScratchFile::writeAt(uint64_t offset, std::span<const std::byte> bytes) {
-  return writeAll(descriptor_, directory_, offset, bytes);
+  return writeAll(descriptor_, path_, offset, bytes);
 }
 
 Result<> ScratchFile::readAt(uint64_t offset, std::span<std::byte> out) const {
-  return readAll(descriptor_, directory_, offset, out);
+  return readAll(descriptor_, path_, offset, out);
+}
+
+Result<uint64_t> ScratchFile::sizeBytes() const {
+  struct stat info {};
+  if (::fstat(descriptor_, &info) != 0) return ioError(path_, "cannot stat", errno);
+  return static_cast<uint64_t>(info.st_size);
+}
+
+Result<> ScratchFile::truncate(uint64_t sizeBytes) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(sizeBytes)) != 0) return ioError(path_, "cannot truncate", errno);
+  return {};
+}
+
+Result<> ScratchFile::sync() {
+  if (::fdatasync(descriptor_) != 0) return ioError(path_, "cannot sync", errno);
+  return {};
 }
 
 GrowingFile::GrowingFile(int descriptor, std::string path, uint64_t sizeBytes)

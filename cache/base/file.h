@@ -62,10 +62,13 @@ class OutputFile {
   uint64_t sizeBytes_ = 0;
 };
 
-// A temporary file that has no name: written at any offset, read back, gone with its owner or a crash.
+// A file written at any offset and read back, from several threads at once. Without a name it is gone with its owner
+// or a crash; with one it stays until somebody removes it.
 class ScratchFile {
  public:
   static Result<ScratchFile> create(const std::filesystem::path& directory);
+  // The named file as it is, or a new, empty one.
+  static Result<ScratchFile> open(const std::filesystem::path& path);
   ScratchFile(ScratchFile&& other) noexcept;
   ScratchFile& operator=(ScratchFile&& other) noexcept;
   ScratchFile(const ScratchFile&) = delete;
@@ -74,11 +77,15 @@ class ScratchFile {
 
   Result<> writeAt(uint64_t offset, std::span<const std::byte> bytes);
   Result<> readAt(uint64_t offset, std::span<std::byte> out) const;
+  Result<uint64_t> sizeBytes() const;
+  Result<> truncate(uint64_t sizeBytes);
+  // Returns when a loss of power cannot take back what was written.
+  Result<> sync();
 
  private:
-  ScratchFile(int descriptor, std::string directory);
+  ScratchFile(int descriptor, std::string path);
   int descriptor_ = -1;
-  std::string directory_;
+  std::string path_;  // for messages; that of the directory where the file has no name
 };
 
 // A file that grows at its end and is read back at once, under its own name from the beginning: what outlives a crash.

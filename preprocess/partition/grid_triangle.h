@@ -1,7 +1,9 @@
 // Triangles on the model's grid, and how a plane cuts them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "cache/schema/grid.h"
@@ -23,9 +25,19 @@ struct GridCorner {
 };
 struct GridPolygon {
   static constexpr int kMaxCorners = 12;
-  std::array<GridCorner, kMaxCorners> corners;
   int count = 0;
   uint32_t texture = kNoTexture;
+  std::array<GridCorner, kMaxCorners> corners;
+
+  GridPolygon() = default;
+  // Of the corners those in use: most polygons have three or four.
+  GridPolygon(const GridPolygon& other) { *this = other; }
+  GridPolygon& operator=(const GridPolygon& other) {
+    count = other.count;
+    texture = other.texture;
+    std::copy_n(other.corners.begin(), static_cast<size_t>(count), corners.begin());
+    return *this;
+  }
 };
 
 GridPolygon polygonOf(const GridTriangle& triangle, const TriangleTexture& texture);

@@ -1,50 +1,57 @@
 #include "preprocess/partition/spool.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
 #include "cache/base/interrupt.h"
-#include "cache/schema/model.h"
 #include "preprocess/partition/grid_triangle.h"
 
 namespace farcell {
 namespace {
 
-struct Bounds {
-  glm::dvec3 min{std::numeric_limits<double>::infinity()};
-  glm::dvec3 max{-std::numeric_limits<double>::infinity()};
-  MeshCounts counts;
-};
+constexpr int kMaxWorkers = 3;  // one thread reads the mesh: more than that do not help it
+constexpr uint64_t kSegments = 48;
+constexpr uint64_t kMinPortionBytes = uint64_t{4} << 20;
+constexpr std::chrono::seconds kFlushInterval{2};
 
-Result<Bounds> findBounds(MeshReader& mesh, Progress& progress) {
-  Bounds bounds;
-  progress.begin("measure", mesh.info().declaredTriangles, "triangles");
-  const auto grow = [&](std::span<const InputTriangle> batch) -> Result<> {
-    for (const InputTriangle& triangle : batch) {
-      for (const glm::dvec3& position : triangle.positions) {
-        bounds.min = glm::min(bounds.min, position);
-        bounds.max = glm::max(bounds.max, position);
-      }
-    }
-    progress.advance(batch.size());
-    return checkInterrupt();
-  };
-  FARCELL_ASSIGN(bounds.counts, mesh.forEachTriangle(grow));
+std::optional<MeshBounds> readBounds(const std::filesystem::path& file) {
+  MeshBounds bounds;
+  std::optional<SealedReader> reader = SealedReader::open(file);
+  if (!reader || !reader->get(bounds.min) || !reader->get(bounds.max) || !getCounts(*reader, bounds.counts))
+    return std::nullopt;
   return bounds;
 }
 
-GridTriangle onGrid(const InputTriangle& triangle, const Grid& grid, const MeshInfo& info) {
-  const uint32_t albedo = kDefaultAlbedo[0] | kDefaultAlbedo[1] << 8 | kDefaultAlbedo[2] << 16;
-  GridTriangle result{};
-  for (int k = 0; k < 3; ++k) {
-    result.corners[k] = grid.gridFromWorld(triangle.positions[k]);
-    result.colours[k] = info.hasColours ? triangle.colours[k] & 0xffffff : albedo;
-    result.normals[k] = info.hasNormals ? packNormal(triangle.normals[k]) : 0;
-  }
-  return result;
+Result<> writeBounds(const std::filesystem::path& file, const MeshBounds& bounds) {
+  SealedWriter writer;
+  writer.put(bounds.min);
+  writer.put(bounds.max);
+  putCounts(writer, bounds.counts);
+  return writer.commit(file);
 }
+
+// Where positions come to lie on a grid: the same points as gridFromWorld, without a call for each.
+class Gridding {
+ public:
+  explicit Gridding(const Grid& grid)
+      : origin_(grid.origin), side_(grid.side), steps_(static_cast<double>(int64_t{1} << grid.bits)) {}
+  GridPoint operator()(glm::dvec3 point) const {
+    GridPoint result;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = (point[axis] - origin_[axis]) / side_ * steps_ + 0.5;
+      result[axis] = static_cast<int32_t>(std::min(std::max(value, 0.0), steps_));
+    }
+    return result;
+  }
+
+ private:
+  glm::dvec3 origin_;
+  double side_;
+  double steps_;
+};
 
 // None where a coordinate is not finite.
 TriangleTexture textureOf(const InputTriangle& triangle) {
@@ -54,56 +61,110 @@ TriangleTexture textureOf(const InputTriangle& triangle) {
   return {triangle.texture, triangle.textureCoordinates};
 }
 
-// The histogram cell of a triangle's middle.
-CellKey histogramCell(const GridTriangle& triangle, int gridBits) {
-  const int shift = gridBits - static_cast<int>(kHistogramLevel);
-  CellKey key{kHistogramLevel};
-  std::array<uint32_t*, 3> coordinates = {&key.x, &key.y, &key.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int64_t sum = int64_t{triangle.corners[0][axis]} + triangle.corners[1][axis] + triangle.corners[2][axis];
-    *coordinates[axis] = std::min(static_cast<uint32_t>(sum / 3 >> shift), (1u << kHistogramLevel) - 1);
+// The input's looks join its corners.
+void putLooks(const InputTriangle& input, const RecordFormat& format, GridTriangle triangle, std::byte* record) {
+  for (int k = 0; k < 3; ++k) {
+    if (format.colours) triangle.colours[k] = input.colours[k] & 0xffffff;
+    if (format.normals) triangle.normals[k] = packNormal(input.normals[k]);
   }
-  return key;
+  format.put(triangle, format.textures ? textureOf(input) : TriangleTexture{}, record);
 }
 
-void sumLevels(std::array<std::vector<uint64_t>, kHistogramLevel + 1>& histogram) {
-  for (int level = kHistogramLevel - 1; level >= 0; --level)
-    for (size_t cell = 0; cell < histogram[level].size(); ++cell)
-      for (size_t child = 0; child < 8; ++child) histogram[level][cell] += histogram[level + 1][8 * cell + child];
+BucketBuilder::Limits limitsFor(uint64_t expectedBytes, const SpoolOptions& options) {
+  BucketBuilder::Limits limits{kMinPortionBytes, std::clamp(options.threads - 1, 0, kMaxWorkers)};
+  while (limits.workers > 0 && BucketBuilder::memoryBytes(limits) > options.memoryBytes) --limits.workers;
+  const uint64_t wanted = std::max(kMinPortionBytes, expectedBytes / kSegments);
+  limits.portionBytes = wanted;
+  while (limits.portionBytes > kMinPortionBytes && BucketBuilder::memoryBytes(limits) > options.memoryBytes)
+    limits.portionBytes -= limits.portionBytes / 8;
+  return limits;
 }
 
 }  // namespace
 
-Result<Spool> spoolMesh(MeshReader& mesh, const std::filesystem::path& scratchDirectory, Progress& progress) {
-  FARCELL_ASSIGN(const Bounds bounds, findBounds(mesh, progress));
+void putCounts(SealedWriter& writer, const MeshCounts& counts) {
+  writer.put(counts.accepted);
+  writer.put(uint64_t{counts.skipped.size()});
+  for (const auto& [reason, triangles] : counts.skipped) {
+    writer.put(reason);
+    writer.put(triangles);
+  }
+}
+
+bool getCounts(SealedReader& reader, MeshCounts& counts) {
+  uint64_t reasons = 0, triangles = 0;
+  if (!reader.get(counts.accepted) || !reader.get(reasons)) return false;
+  for (std::string reason; reasons > 0; --reasons) {
+    if (!reader.get(reason) || !reader.get(triangles)) return false;
+    counts.skipped[reason] = triangles;
+  }
+  return true;
+}
+
+RecordFormat recordFormatOf(const MeshReader& mesh) {
+  return {mesh.info().hasColours, mesh.info().hasNormals, !mesh.textures().empty()};
+}
+
+Result<MeshBounds> measureMesh(MeshReader& mesh, const std::filesystem::path& file, Progress& progress) {
+  if (std::optional<MeshBounds> bounds = readBounds(file)) return *std::move(bounds);
+  MeshBounds bounds{
+      glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity()), {}};
+  progress.begin("measure", mesh.info().declaredTriangles, "triangles");
+  const auto grow = [&](std::span<const InputTriangle> batch) -> Result<> {
+    glm::dvec3 min = bounds.min, max = bounds.max;
+    for (const InputTriangle& triangle : batch) {
+      for (const glm::dvec3& position : triangle.positions) {
+        min = glm::min(min, position);
+        max = glm::max(max, position);
+      }
+    }
+    bounds.min = min;
+    bounds.max = max;
+    progress.advance(batch.size());
+    return checkInterrupt();
+  };
+  FARCELL_ASSIGN(bounds.counts, mesh.forEachTriangle(grow));
   if (bounds.counts.accepted == 0)
     return fail(ErrorKind::corrupt, "expected at least one triangle with an area, found none among {}",
                 mesh.info().declaredTriangles);
-  FARCELL_ASSIGN(TriangleLists triangles, TriangleLists::create(scratchDirectory, 1));
-  Spool spool{gridAround(bounds.min, bounds.max), {}, bounds.counts, std::move(triangles), {}};
-  for (uint32_t level = 0; level <= kHistogramLevel; ++level) spool.histogram[level].resize(size_t{1} << 3 * level);
+  FARCELL_TRY(writeBounds(file, bounds));
+  return bounds;
+}
 
-  progress.begin("spool", bounds.counts.accepted, "triangles");
-  GridTriangles batchOnGrid;
+Result<std::shared_ptr<const BucketFile>> spoolMesh(MeshReader& mesh, const Grid& grid, uint64_t triangles,
+                                                    const SpoolOptions& options, Progress& progress) {
+  const RecordFormat format = recordFormatOf(mesh);
+  FARCELL_ASSIGN(const auto builder,
+                 BucketBuilder::open(options.file, BucketLayout(CellKey{}, grid.bits, options.depth), format,
+                                     limitsFor(triangles * format.bytes(), options)));
+  if (builder->complete()) return builder->finish(triangles);
+  progress.begin("spool", triangles, "triangles");
+  const Gridding gridding(grid);
+  uint64_t seen = 0;
+  auto flushed = std::chrono::steady_clock::now();
+  const auto flush = [&]() -> Result<> {
+    flushed = std::chrono::steady_clock::now();
+    return builder->flush(seen);
+  };
   const auto put = [&](std::span<const InputTriangle> batch) -> Result<> {
-    batchOnGrid.clear();
-    for (const InputTriangle& input : batch) {
-      const GridTriangle triangle = onGrid(input, spool.grid, mesh.info());
+    const uint64_t skip =
+        std::min<uint64_t>(batch.size(), builder->sourceDone() - std::min(seen, builder->sourceDone()));
+    seen += skip;
+    for (const InputTriangle& input : batch.subspan(skip)) {
+      if (builder->full()) FARCELL_TRY(flush());
+      ++seen;
+      GridTriangle triangle;
+      for (int k = 0; k < 3; ++k) triangle.corners[k] = gridding(input.positions[k]);
       if (isDegenerate(triangle)) continue;  // thinner than the grid: its neighbours meet where it was
-      batchOnGrid.add(triangle, textureOf(input));
-      spool.bounds.include(boxOf(triangle));
-      ++spool.histogram[kHistogramLevel][mortonCode(histogramCell(triangle, spool.grid.bits))];
+      putLooks(input, format, triangle, builder->slot());
+      builder->take();
     }
     progress.advance(batch.size());
-    FARCELL_TRY(checkInterrupt());
-    return spool.triangles.append(0, batchOnGrid);
+    if (std::chrono::steady_clock::now() - flushed > kFlushInterval) FARCELL_TRY(flush());
+    return checkInterrupt();
   };
   FARCELL_TRY(mesh.forEachTriangle(put));
-  if (spool.bounds.empty())
-    return fail(ErrorKind::corrupt, "expected a triangle wider than {} of the model's extent, found none",
-                1.0 / (int64_t{1} << spool.grid.bits));
-  sumLevels(spool.histogram);
-  return spool;
+  return builder->finish(seen);
 }
 
 }  // namespace farcell

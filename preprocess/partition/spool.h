@@ -1,25 +1,37 @@
-// Steps 1 and 2 of the partition: the mesh on its grid, in scratch, with a histogram of where its triangles lie.
+// Steps 1 and 2 of the partition: the mesh on its grid, in scratch, sorted into the cells of the octree's upper levels.
 #pragma once
 
-#include <array>
-#include <vector>
+#include <memory>
 
 #include "cache/base/progress.h"
 #include "preprocess/mesh/mesh_reader.h"
-#include "preprocess/partition/triangle_lists.h"
+#include "preprocess/partition/bucket_file.h"
+#include "preprocess/partition/sealed_file.h"
 
 namespace farcell {
 
-inline constexpr uint32_t kHistogramLevel = 6;
-
-struct Spool {
-  Grid grid;
-  GridBox bounds;
+struct MeshBounds {
+  glm::dvec3 min;  // of all accepted triangles
+  glm::dvec3 max;
   MeshCounts counts;
-  TriangleLists triangles;                                           // list 0: everything
-  std::array<std::vector<uint64_t>, kHistogramLevel + 1> histogram;  // per level, by Morton code of the cell
 };
 
-Result<Spool> spoolMesh(MeshReader& mesh, const std::filesystem::path& scratchDirectory, Progress& progress);
+// Kept in `file`, and taken from there when it is whole. corrupt when the mesh has no triangle that can be drawn.
+Result<MeshBounds> measureMesh(MeshReader& mesh, const std::filesystem::path& file, Progress& progress);
+
+void putCounts(SealedWriter& writer, const MeshCounts& counts);
+bool getCounts(SealedReader& reader, MeshCounts& counts);
+
+RecordFormat recordFormatOf(const MeshReader& mesh);
+
+struct SpoolOptions {
+  std::filesystem::path file;
+  int depth;  // levels of the octree
+  int threads;
+  uint64_t memoryBytes;
+};
+// Goes on where an earlier run ended: triangles that are in the file already are read from the mesh and passed over.
+Result<std::shared_ptr<const BucketFile>> spoolMesh(MeshReader& mesh, const Grid& grid, uint64_t triangles,
+                                                    const SpoolOptions& options, Progress& progress);
 
 }  // namespace farcell

@@ -4,65 +4,49 @@
 #include <utility>
 
 namespace farcell {
+namespace {
+constexpr uint64_t kReadTriangles = 4096;  // records at a time: still in the cache when they are unpacked
+}  // namespace
 
-TriangleLists::TriangleLists(TriangleLists&& other) noexcept
-    : file_(std::move(other.file_)), endBytes_(other.endBytes_), lists_(std::move(other.lists_)) {}
-
-Result<TriangleLists> TriangleLists::create(const std::filesystem::path& scratchDirectory, size_t listCount) {
-  FARCELL_ASSIGN(ScratchFile file, ScratchFile::create(scratchDirectory));
-  TriangleLists lists(std::move(file));
-  lists.lists_.resize(listCount);
-  return lists;
+Result<TriangleLists> TriangleLists::open(const std::filesystem::path& path, const RecordFormat& format,
+                                          std::vector<List> lists) {
+  FARCELL_ASSIGN(InputFile file, InputFile::open(path));
+  for (const List& list : lists)
+    if (list.offsetBytes > file.sizeBytes() || list.size > (file.sizeBytes() - list.offsetBytes) / format.bytes())
+      return corrupt(file.path(), list.offsetBytes, fmt::format("{} triangles", list.size),
+                     fmt::format("a file of {} bytes", file.sizeBytes()));
+  return TriangleLists(std::move(file), format, std::move(lists));
 }
 
-size_t TriangleLists::addList() {
-  const std::lock_guard lock(mutex_);
-  lists_.emplace_back();
-  return lists_.size() - 1;
-}
-
-Result<> TriangleLists::append(size_t list, const GridTriangleSpan& triangles) {
-  if (triangles.size() == 0) return {};
-  uint64_t offset = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    offset = endBytes_;
-    endBytes_ += triangles.triangles.size_bytes() + triangles.textures.size_bytes();
-    lists_[list].runs.push_back({offset, triangles.size(), !triangles.textures.empty()});
-    lists_[list].size += triangles.size();
+Result<> TriangleLists::readSome(const List& list, uint64_t first, uint64_t count, std::vector<std::byte>& records,
+                                 GridTriangles& out) const {
+  const size_t bytes = format_.bytes();
+  for (uint64_t at = first; at < first + count; at += kReadTriangles) {
+    records.resize(std::min(kReadTriangles, first + count - at) * bytes);
+    FARCELL_TRY(file_.readAt(list.offsetBytes + at * bytes, records));
+    for (size_t record = 0; record < records.size(); record += bytes)
+      out.add(format_.triangle(records.data() + record), format_.texture(records.data() + record));
   }
-  FARCELL_TRY(file_.writeAt(offset, std::as_bytes(triangles.triangles)));
-  return file_.writeAt(offset + triangles.triangles.size_bytes(), std::as_bytes(triangles.textures));
-}
-
-Result<> TriangleLists::readRun(const Run& run, uint64_t first, uint64_t count, GridTriangles& out) const {
-  const size_t before = out.size();
-  out.triangles.resize(before + count);
-  FARCELL_TRY(file_.readAt(run.offsetBytes + first * sizeof(GridTriangle),
-                           std::as_writable_bytes(std::span(out.triangles).subspan(before))));
-  if (!run.textured && out.textures.empty()) return {};
-  out.textures.resize(before + count);
-  if (!run.textured) return {};
-  return file_.readAt(run.offsetBytes + run.size * sizeof(GridTriangle) + first * sizeof(TriangleTexture),
-                      std::as_writable_bytes(std::span(out.textures).subspan(before)));
+  return {};
 }
 
 Result<GridTriangles> TriangleLists::read(size_t list) const {
   GridTriangles triangles;
   triangles.triangles.reserve(lists_[list].size);
-  for (const Run& run : lists_[list].runs) FARCELL_TRY(readRun(run, 0, run.size, triangles));
+  std::vector<std::byte> records;
+  FARCELL_TRY(readSome(lists_[list], 0, lists_[list].size, records, triangles));
   return triangles;
 }
 
 Result<> TriangleLists::forEachPortion(size_t list, size_t portion,
                                        const std::function<Result<>(const GridTriangleSpan&)>& sink) const {
   GridTriangles buffer;
-  for (const Run& run : lists_[list].runs) {
-    for (uint64_t first = 0; first < run.size; first += portion) {
-      buffer.clear();
-      FARCELL_TRY(readRun(run, first, std::min<uint64_t>(portion, run.size - first), buffer));
-      FARCELL_TRY(sink(buffer));
-    }
+  std::vector<std::byte> records;
+  const uint64_t size = lists_[list].size;
+  for (uint64_t first = 0; first < size; first += portion) {
+    buffer.clear();
+    FARCELL_TRY(readSome(lists_[list], first, std::min<uint64_t>(portion, size - first), records, buffer));
+    FARCELL_TRY(sink(buffer));
   }
   return {};
 }

@@ -1,52 +1,40 @@
-// Many append-only lists of triangles in one scratch file: what keeps a model larger than memory on disk.
+// The leaves' triangles on disk, read from any thread and from any process that sees the directory.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <vector>
 
 #include "cache/base/file.h"
-#include "preprocess/partition/grid_triangles.h"
+#include "preprocess/partition/record_format.h"
 
 namespace farcell {
 
-// Appends may come from several threads; a list is read after the last append to it.
 class TriangleLists {
  public:
-  static Result<TriangleLists> create(const std::filesystem::path& scratchDirectory, size_t listCount);
-  TriangleLists(TriangleLists&& other) noexcept;
+  struct List {
+    uint64_t offsetBytes;  // of its first record; the others follow
+    uint64_t size;
+  };
+  static Result<TriangleLists> open(const std::filesystem::path& path, const RecordFormat& format,
+                                    std::vector<List> lists);
 
-  // Adds an empty list; returns its index.
-  size_t addList();
   uint64_t size(size_t list) const { return lists_[list].size; }
-  // Written at once, as one run of records: append in portions of thousands.
-  Result<> append(size_t list, const GridTriangleSpan& triangles);
   Result<GridTriangles> read(size_t list) const;
   // The same in portions of at most `portion` triangles.
   Result<> forEachPortion(size_t list, size_t portion,
                           const std::function<Result<>(const GridTriangleSpan&)>& sink) const;
 
  private:
-  // Triangles, and after them, where any has one, their textures.
-  struct Run {
-    uint64_t offsetBytes;
-    uint64_t size;
-    bool textured;
-  };
-  struct List {
-    uint64_t size = 0;
-    std::vector<Run> runs;
-  };
-  explicit TriangleLists(ScratchFile file) : file_(std::move(file)) {}
-  // Appends triangles [first, first + count) of a run.
-  Result<> readRun(const Run& run, uint64_t first, uint64_t count, GridTriangles& out) const;
+  TriangleLists(InputFile file, const RecordFormat& format, std::vector<List> lists)
+      : file_(std::move(file)), format_(format), lists_(std::move(lists)) {}
+  // Appends triangles [first, first + count) of the list; `records` is overwritten.
+  Result<> readSome(const List& list, uint64_t first, uint64_t count, std::vector<std::byte>& records,
+                    GridTriangles& out) const;
 
-  ScratchFile file_;
-  std::mutex mutex_;
-  // Guarded by mutex_ while lists are appended to:
-  uint64_t endBytes_ = 0;
+  InputFile file_;
+  RecordFormat format_;
   std::vector<List> lists_;
 };
 

@@ -228,6 +228,18 @@ TEST_F(FileTest, AScratchFileHasNoNameAndReadsBackWhatWasWrittenAnywhere) {
   EXPECT_FALSE(scratch.readAt(1'000'003, std::as_writable_bytes(std::span(out))));
 }
 
+TEST_F(FileTest, ANamedScratchFileStaysAndIsOpenedAsItIs) {
+  ASSERT_TRUE(ScratchFile::open(at("s")).value().writeAt(2, bytesOf("kept")));
+  ScratchFile again = ScratchFile::open(at("s")).value();
+  EXPECT_EQ(again.sizeBytes().value(), 6u);
+  ASSERT_TRUE(again.truncate(4));
+  ASSERT_TRUE(again.sync());
+  EXPECT_EQ(readTextFile(at("s"), 10).value(), std::string("\0\0ke", 4));
+  const auto missing = ScratchFile::open(at("absent") / "s");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find((at("absent") / "s").string()), std::string::npos);
+}
+
 TEST_F(FileTest, ATextFileAboveTheLimitIsRefusedByItsSize) {
   ASSERT_TRUE(writeTextFile(at("t"), "0123456789"));
   EXPECT_EQ(readTextFile(at("t"), 10).value(), "0123456789");

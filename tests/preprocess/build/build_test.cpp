@@ -147,7 +147,8 @@ TEST_F(BuildPack, StreamedLeavesBakeTheSameViewsAsGatheredOnes) {
   const BuildOptions options = smallLeaves();
   const std::unique_ptr<MeshReader> mesh = openMesh(path).value();
   Progress silent(false);
-  const Partition partition = partitionMesh(*mesh, options.settings, directory_, 1, silent).value();
+  const Partition partition =
+      partitionMesh(*mesh, options.settings, {directory_, 1, kMinPartitionMemoryBytes}, silent).value();
   const CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
   const Model model{partition.grid, partition.bounds, options.settings, false, false};
   const Viewpoints viewpoints = Viewpoints::create(42).value();

@@ -1,0 +1,1 @@
+farcell_program(tests/bench/partition bench_partition DEPS farcell_preprocess_partition farcell_preprocess_read)
