@@ -12,6 +12,9 @@ namespace farcell::lod {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
+// A part stands for others along the curve that are within this many times the root of the area that makes it small.
+constexpr double kReach = 2;
+constexpr int kBisections = 30;
 // Less is not worth moving places for.
 constexpr double kLeastEnlargement = 1.01;
 
@@ -71,7 +74,10 @@ Parts::Parts(const WeldedMesh& mesh) : mesh_(mesh), partOf_(mesh.places.size(), 
     extents[partOf_[place]].include(glm::dvec3(mesh.places[place]));
     if (mesh.faces[place] != 0) free_[partOf_[place]] = false;
   }
-  for (const Extent& extent : extents) codes_.push_back(codeOf(mesh.box, extent.middle()));
+  for (const Extent& extent : extents) {
+    middles_.push_back(extent.middle());
+    codes_.push_back(codeOf(mesh.box, extent.middle()));
+  }
   anyFree_ = std::find(free_.begin(), free_.end(), true) != free_.end();
 }
 
@@ -95,45 +101,53 @@ std::vector<Parts::Member> Parts::freeMembers(const std::vector<Triangle>& trian
   return members;
 }
 
+// Visits each member of less than `least`: the member, whether it is kept, and the area that it stands for then. One
+// that is far from the next stands for those before it even if they are few: nothing is taken away where nothing is
+// near.
+template <class Visit>
+void Parts::sample(const std::vector<Member>& members, double least, const Visit& visit) const {
+  const double reach = kReach * std::sqrt(least);
+  double sum = 0;
+  const Member* waiting = nullptr;
+  const auto pass = [&](const Member& member, bool last) {
+    sum += areas_[member.part];
+    const bool kept = last || sum >= least;
+    visit(member, kept, sum);
+    if (kept) sum = 0;
+  };
+  for (const Member& member : members) {
+    if (areas_[member.part] >= least) continue;
+    if (waiting != nullptr) pass(*waiting, glm::distance(middles_[waiting->part], middles_[member.part]) > reach);
+    waiting = &member;
+  }
+  if (waiting != nullptr) pass(*waiting, true);
+}
+
 bool Parts::thin(Collapser& collapser, double areaSteps2, size_t target) {
   const std::vector<Member> members = freeMembers(collapser.triangles());
-  // Visits each member that is too small: whether it is kept, and the area that it stands for then.
-  const auto sample = [&](double least, const auto& visit) {
-    double sum = 0;
-    for (const Member& member : members) {
-      if (areas_[member.part] >= least) continue;
-      sum += areas_[member.part];
-      visit(member, sum >= least, sum);
-      if (sum >= least) sum = 0;
-    }
-  };
   const auto left = [&](double least) {
     size_t triangles = collapser.triangles().size();
-    sample(least, [&](const Member& member, bool kept, double) { triangles -= kept ? 0 : member.triangles; });
+    sample(members, least, [&](const Member& member, bool kept, double) { triangles -= kept ? 0 : member.triangles; });
     return triangles;
   };
-  // Never more than there is: one is left.
   double total = 0;
   for (const Member& member : members) total += areas_[member.part];
-  double low = 0, high = std::min(areaSteps2, total);
-  for (int step = 0; step < 30 && left(high) < target; ++step) {
+  double low = 0, high = std::min(areaSteps2, 2 * total);
+  for (int step = 0; step < kBisections && left(high) < target; ++step) {
     const double middle = 0.5 * (low + high);
     (left(middle) > target ? low : high) = middle;
   }
   std::vector<bool> taken(count());
-  uint32_t last = kNone;
-  bool any = false;
-  double rest = 0;
-  sample(high, [&](const Member& member, bool kept, double sum) {
-    if (kept) areas_[member.part] = sum;
-    if (kept) last = member.part;
+  std::vector<double> areas = areas_;
+  size_t takenNow = 0;
+  sample(members, high, [&](const Member& member, bool kept, double sum) {
+    if (kept) areas[member.part] = sum;
     taken[member.part] = !kept;
-    taken_ += kept ? 0 : 1;
-    any |= !kept;
-    rest = kept ? 0 : sum;
+    takenNow += kept ? 0 : 1;
   });
-  if (last != kNone) areas_[last] += rest;
-  if (!any) return false;
+  areas_ = std::move(areas);
+  taken_ += takenNow;
+  if (takenNow == 0) return false;
   std::vector<bool> keep;
   for (const Triangle& t : collapser.triangles()) keep.push_back(!taken[partOf_[t[0]]]);
   collapser.filter(keep);

@@ -35,12 +35,15 @@ class Parts {
     uint32_t part;
     size_t triangles;
   };
+  template <class Visit>
+  void sample(const std::vector<Member>& members, double least, const Visit& visit) const;
   std::vector<Member> freeMembers(const std::vector<Triangle>& triangles) const;
 
   const WeldedMesh& mesh_;
   std::vector<uint32_t> partOf_;  // of a place; kNone: of no triangle
   std::vector<double> areas_;     // that the part stands for, squared steps
-  std::vector<uint64_t> codes_;   // Morton code of its middle in the cell
+  std::vector<glm::dvec3> middles_;
+  std::vector<uint64_t> codes_;  // Morton code of its middle in the cell
   std::vector<bool> free_;
   bool anyFree_ = false;
   size_t taken_ = 0;

@@ -31,14 +31,14 @@ Reduction reduce(const WeldedMesh& mesh, size_t target) {
   Parts parts(mesh);
   double share = kFirstShapeShare;
   std::vector<float> limits = parts.limitsSteps(share);
-  const double everything = INFINITY;
   while (collapser.triangles().size() > target) {
     if (collapser.pass(target, limits)) {
       const double partSteps = kPartErrors * collapser.errorSteps() * collapser.errorSteps();
       if (parts.anyFree() && collapser.triangles().size() > target) parts.thin(collapser, partSteps, target);
       continue;
     }
-    if (parts.anyFree() && parts.thin(collapser, everything, target)) continue;
+    // All that is left would lose its shape: parts go, as few as can be, and then shapes.
+    if (parts.anyFree() && parts.thin(collapser, INFINITY, target)) continue;
     if (share >= kLastShapeShare) break;
     share *= 2;
     limits = parts.limitsSteps(share);
