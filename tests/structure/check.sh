@@ -84,6 +84,7 @@ dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
   heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tools/extract|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
+  heavy OpenMesh '[<"]OpenMesh/' '^preprocess/lod/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy 'WebP, LZMA' '[<"](webp/|lzma\.h)' '^tests/bench/'
   heavy xxHash '[<"]xxhash\.h' '^cache/base/'

@@ -1,0 +1,185 @@
+#include "preprocess/lod/parts.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+namespace farcell::lod {
+namespace {
+
+constexpr uint32_t kNone = UINT32_MAX;
+// A part stands for others along the curve that are within this many times the root of the area that makes it small.
+constexpr double kReach = 2;
+constexpr int kBisections = 30;
+// Less is not worth moving places for.
+constexpr double kLeastEnlargement = 1.01;
+
+class Union {
+ public:
+  explicit Union(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  uint32_t root(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = root(a), b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+double areaOf(const WeldedMesh& mesh, const Triangle& t) {
+  const glm::dvec3 a(mesh.places[t[0]]);
+  return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.places[t[1]]) - a, glm::dvec3(mesh.places[t[2]]) - a));
+}
+
+struct Extent {
+  glm::dvec3 min{INFINITY}, max{-INFINITY};
+  void include(glm::dvec3 point) { min = glm::min(min, point), max = glm::max(max, point); }
+  glm::dvec3 middle() const { return 0.5 * (min + max); }
+};
+
+// In the cell's cube of 2^20 divisions.
+uint64_t codeOf(const GridBox& box, glm::dvec3 point) {
+  const glm::dvec3 share = (point - glm::dvec3(box.min)) / static_cast<double>(box.max.x - box.min.x);
+  const auto part = [](double value) { return static_cast<uint32_t>(std::clamp(value, 0.0, 0.999999) * (1 << 20)); };
+  return mortonCode(CellKey{20, part(share.x), part(share.y), part(share.z)});
+}
+
+}  // namespace
+
+Parts::Parts(const WeldedMesh& mesh) : mesh_(mesh), partOf_(mesh.places.size(), kNone) {
+  Union joined(mesh.places.size());
+  for (const Triangle& t : mesh.triangles) joined.join(t[0], t[1]), joined.join(t[1], t[2]);
+  std::vector<uint32_t> partOfRoot(mesh.places.size(), kNone);
+  for (const Triangle& t : mesh.triangles) {
+    uint32_t& part = partOfRoot[joined.root(t[0])];
+    if (part == kNone) {
+      part = static_cast<uint32_t>(areas_.size());
+      areas_.push_back(0);
+    }
+    areas_[part] += areaOf(mesh, t);
+    for (const uint32_t place : t) partOf_[place] = part;
+  }
+  std::vector<Extent> extents(areas_.size());
+  free_.assign(areas_.size(), true);
+  for (size_t place = 0; place < mesh.places.size(); ++place) {
+    if (partOf_[place] == kNone) continue;
+    extents[partOf_[place]].include(glm::dvec3(mesh.places[place]));
+    if (mesh.faces[place] != 0) free_[partOf_[place]] = false;
+  }
+  for (const Extent& extent : extents) {
+    middles_.push_back(extent.middle());
+    codes_.push_back(codeOf(mesh.box, extent.middle()));
+  }
+  anyFree_ = std::find(free_.begin(), free_.end(), true) != free_.end();
+}
+
+std::vector<float> Parts::limitsSteps(double share) const {
+  std::vector<float> limits(partOf_.size());
+  for (size_t place = 0; place < limits.size(); ++place)
+    if (partOf_[place] != kNone) limits[place] = static_cast<float>(share * std::sqrt(areas_[partOf_[place]]));
+  return limits;
+}
+
+// The free parts that are left, along the Morton curve.
+std::vector<Parts::Member> Parts::freeMembers(const std::vector<Triangle>& triangles) const {
+  std::vector<size_t> counts(count());
+  for (const Triangle& t : triangles) ++counts[partOf_[t[0]]];
+  std::vector<Member> members;
+  for (uint32_t part = 0; part < counts.size(); ++part)
+    if (free_[part] && counts[part] > 0) members.push_back({part, counts[part]});
+  std::sort(members.begin(), members.end(), [&](const Member& a, const Member& b) {
+    return std::pair(codes_[a.part], a.part) < std::pair(codes_[b.part], b.part);
+  });
+  return members;
+}
+
+// Visits each member of less than `least`: the member, whether it is kept, and the area that it stands for then. One
+// that is far from the next stands for those before it even if they are few: nothing is taken away where nothing is
+// near.
+template <class Visit>
+void Parts::sample(const std::vector<Member>& members, double least, const Visit& visit) const {
+  const double reach = kReach * std::sqrt(least);
+  double sum = 0;
+  const Member* waiting = nullptr;
+  const auto pass = [&](const Member& member, bool last) {
+    sum += areas_[member.part];
+    const bool kept = last || sum >= least;
+    visit(member, kept, sum);
+    if (kept) sum = 0;
+  };
+  for (const Member& member : members) {
+    if (areas_[member.part] >= least) continue;
+    if (waiting != nullptr) pass(*waiting, glm::distance(middles_[waiting->part], middles_[member.part]) > reach);
+    waiting = &member;
+  }
+  if (waiting != nullptr) pass(*waiting, true);
+}
+
+bool Parts::thin(Collapser& collapser, double areaSteps2, size_t target) {
+  const std::vector<Member> members = freeMembers(collapser.triangles());
+  const auto left = [&](double least) {
+    size_t triangles = collapser.triangles().size();
+    sample(members, least, [&](const Member& member, bool kept, double) { triangles -= kept ? 0 : member.triangles; });
+    return triangles;
+  };
+  double total = 0;
+  for (const Member& member : members) total += areas_[member.part];
+  double low = 0, high = std::min(areaSteps2, 2 * total);
+  for (int step = 0; step < kBisections && left(high) < target; ++step) {
+    const double middle = 0.5 * (low + high);
+    (left(middle) > target ? low : high) = middle;
+  }
+  std::vector<bool> taken(count());
+  std::vector<double> areas = areas_;
+  size_t takenNow = 0;
+  sample(members, high, [&](const Member& member, bool kept, double sum) {
+    if (kept) areas[member.part] = sum;
+    taken[member.part] = !kept;
+    takenNow += kept ? 0 : 1;
+  });
+  areas_ = std::move(areas);
+  taken_ += takenNow;
+  if (takenNow == 0) return false;
+  std::vector<bool> keep;
+  for (const Triangle& t : collapser.triangles()) keep.push_back(!taken[partOf_[t[0]]]);
+  collapser.filter(keep);
+  return true;
+}
+
+std::vector<GridPoint> Parts::enlarged(const std::vector<Triangle>& triangles) const {
+  std::vector<GridPoint> places = mesh_.places;
+  if (!anyFree_) return places;
+  std::vector<double> own(count());
+  std::vector<Extent> extents(count());
+  std::vector<bool> used(places.size());
+  for (const Triangle& t : triangles) {
+    own[partOf_[t[0]]] += areaOf(mesh_, t);
+    for (const uint32_t place : t) {
+      extents[partOf_[t[0]]].include(glm::dvec3(places[place]));
+      used[place] = true;
+    }
+  }
+  const glm::dvec3 low = glm::dvec3(mesh_.box.min) + 1.0, high = glm::dvec3(mesh_.box.max) - 1.0;
+  for (size_t place = 0; place < places.size(); ++place) {
+    if (!used[place] || !free_[partOf_[place]]) continue;
+    const Extent& extent = extents[partOf_[place]];
+    const glm::dvec3 size = extent.max - extent.min, room = high - low;
+    const double fits = std::min({room.x / size.x, room.y / size.y, room.z / size.z});
+    const double factor = std::min(std::sqrt(areas_[partOf_[place]] / own[partOf_[place]]), fits);
+    if (!(factor >= kLeastEnlargement)) continue;
+    const glm::dvec3 middle = glm::clamp(extent.middle(), low + 0.5 * factor * size, high - 0.5 * factor * size);
+    const glm::dvec3 moved = middle + (glm::dvec3(places[place]) - extent.middle()) * factor;
+    places[place] = GridPoint(glm::clamp(glm::round(moved), low, high));
+  }
+  return places;
+}
+
+}  // namespace farcell::lod

@@ -1,0 +1,56 @@
+// The mesh of an inner cell, from the meshes of its children. Levels of detail are made bottom-up: the life of one is
+//   1. weld (welded_mesh.h): the children, whose shared faces have the same vertices bit for bit, become one mesh, and
+//      where children of different depth meet it is closed (seams.h);
+//   2. reduce: passes of edge collapses by quadrics (collapse.h); once their error is as large as separate parts, of
+//   the
+//      small parts some are kept, and enlarged so that the picture grows no thinner (parts.h);
+//   3. measure (mesh_distance.h): how far the result is from the children's meshes, both ways.
+//
+// Vertices on the faces of the cell's own cube stay, and so do the edges between them: whatever cells a cut is made of,
+// neighbours fit without a crack, without a rule at run time. They become free in the ancestor whose inside they lie
+// in. What lies on the faces may be more than the target: then the target is exceeded, which the figures tell.
+#pragma once
+
+#include <span>
+
+#include "cache/base/result.h"
+#include "cache/schema/grid.h"
+#include "preprocess/lod/lod_mesh.h"
+
+namespace farcell {
+
+enum class Simplifier {
+  collapse,  // ours
+  openmesh,  // OpenMesh's decimater: slower
+};
+
+struct LodSettings {
+  uint64_t targetTriangles = 16384;
+  Simplifier simplifier = Simplifier::collapse;
+};
+
+struct LodFigures {
+  uint64_t childTriangles = 0;
+  uint64_t lockedTriangles = 0;  // with an edge in a face of the cube: never removed
+  uint64_t parts = 0;            // separate ones in the children; 0 when nothing had to go
+  uint64_t partsTaken = 0;       // of which others stand for
+  double areaKept = 1;           // area of the result / area of the children
+  bool aboveTarget = false;
+  bool fellBack = false;  // not simplified by OpenMesh, which cannot hold such a mesh
+};
+
+struct SimplifiedCell {
+  LodMesh mesh;  // vertices in the order of their first use
+  // Upper bound of the distance, in grid steps, from the mesh to the full geometry and back, measured at samples
+  // (mesh_distance.h): that from the children's meshes plus theirs.
+  double errorSteps = 0;
+  LodFigures figures;
+};
+
+// children: the meshes of the cell's children, in the order of their octants; empty ones may be left out.
+// childrenErrorSteps: the largest of their errors; 0 for leaves. Depends on nothing else: not on threads or time.
+// invalidArgument for meshes that contradict themselves, each other or the cell's cube.
+Result<SimplifiedCell> simplifyCell(const Grid& grid, const CellKey& cell, std::span<const LodMesh> children,
+                                    double childrenErrorSteps, const LodSettings& settings);
+
+}  // namespace farcell

@@ -1,0 +1,111 @@
+#include "preprocess/lod/triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace farcell::lod {
+namespace {
+
+constexpr size_t kFan = 4;
+
+double square(glm::dvec3 v) { return glm::dot(v, v); }
+
+double squareFromSegment(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) {
+  const glm::dvec3 along = b - a;
+  const double length = square(along);
+  const double t = length > 0 ? std::clamp(glm::dot(p - a, along) / length, 0.0, 1.0) : 0;
+  return square(p - (a + along * t));
+}
+
+uint64_t codeOf(std::span<const GridPoint> places, const Triangle& t) {
+  const glm::uvec3 sum(places[t[0]] + places[t[1]] + places[t[2]]);  // below 2^26
+  return mortonCode(CellKey{0, sum.x / 32, sum.y / 32, sum.z / 32});
+}
+
+}  // namespace
+
+double squareHeightAbove(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
+  const glm::dvec3 normal = glm::cross(ab, ac);
+  const double v = glm::dot(glm::cross(ap, ac), normal), w = glm::dot(glm::cross(ab, ap), normal);
+  const double area = square(normal);
+  if (!(v >= 0 && w >= 0 && v + w <= area && area > 0)) return INFINITY;
+  const double height = glm::dot(ap, normal);
+  return height * height / area;
+}
+
+double squareDistance(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  const double height = squareHeightAbove(p, a, b, c);
+  if (height < INFINITY) return height;
+  return std::min({squareFromSegment(p, a, b), squareFromSegment(p, b, c), squareFromSegment(p, c, a)});
+}
+
+double TriangleTree::Box::squareDistance(glm::dvec3 p) const {
+  const glm::dvec3 outside = glm::max(glm::max(glm::dvec3(min) - p, p - glm::dvec3(max)), glm::dvec3(0));
+  return glm::dot(outside, outside);
+}
+
+TriangleTree::TriangleTree(std::span<const GridPoint> places, std::span<const Triangle> triangles) : places_(places) {
+  std::vector<std::pair<uint64_t, uint32_t>> order;
+  order.reserve(triangles.size());
+  for (uint32_t i = 0; i < triangles.size(); ++i) order.emplace_back(codeOf(places, triangles[i]), i);
+  std::sort(order.begin(), order.end());
+  triangles_.reserve(triangles.size());
+  for (const auto& [code, index] : order) triangles_.push_back(triangles[index]);
+  if (triangles_.empty()) return;
+  levels_.emplace_back((triangles_.size() + kFan - 1) / kFan);
+  for (size_t i = 0; i < triangles_.size(); ++i)
+    for (const uint32_t place : triangles_[i]) {
+      Box& box = levels_[0][i / kFan];
+      box.min = glm::min(box.min, places[place]);
+      box.max = glm::max(box.max, places[place]);
+    }
+  while (levels_.back().size() > 1) {
+    const std::vector<Box>& below = levels_.back();
+    std::vector<Box> above((below.size() + kFan - 1) / kFan);
+    for (size_t i = 0; i < below.size(); ++i) {
+      above[i / kFan].min = glm::min(above[i / kFan].min, below[i].min);
+      above[i / kFan].max = glm::max(above[i / kFan].max, below[i].max);
+    }
+    levels_.push_back(std::move(above));
+  }
+}
+
+double TriangleTree::squareDistance(glm::dvec3 point, double known, double enough) const {
+  struct Entry {
+    double distance;
+    uint32_t level, index;
+  };
+  std::array<Entry, 64> stack;  // at most kFan - 1 entries a level and the last one's
+  size_t size = 0;
+  double best = known;
+  if (!levels_.empty()) stack[size++] = {0, static_cast<uint32_t>(levels_.size() - 1), 0};
+  while (size > 0 && best > enough) {
+    const Entry entry = stack[--size];
+    if (entry.distance >= best) continue;
+    const size_t begin = kFan * entry.index;
+    if (entry.level == 0) {
+      for (size_t i = begin; i < std::min(begin + kFan, triangles_.size()); ++i) {
+        const Triangle& t = triangles_[i];
+        best = std::min(best, lod::squareDistance(point, glm::dvec3(places_[t[0]]), glm::dvec3(places_[t[1]]),
+                                                  glm::dvec3(places_[t[2]])));
+      }
+      continue;
+    }
+    const std::vector<Box>& boxes = levels_[entry.level - 1];
+    const size_t first = size;
+    for (size_t i = begin; i < std::min(begin + kFan, boxes.size()); ++i) {
+      const double distance = boxes[i].squareDistance(point);
+      if (distance < best) stack[size++] = {distance, entry.level - 1, static_cast<uint32_t>(i)};
+    }
+    // The nearest on top.
+    std::sort(stack.begin() + static_cast<ptrdiff_t>(first), stack.begin() + static_cast<ptrdiff_t>(size),
+              [](const Entry& a, const Entry& b) { return a.distance > b.distance; });
+  }
+  return best;
+}
+
+}  // namespace farcell::lod

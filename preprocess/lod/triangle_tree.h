@@ -1,0 +1,37 @@
+// The distance of a point from a mesh: a tree of boxes over triangles in Morton order, four to a node.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "preprocess/lod/welded_mesh.h"
+
+namespace farcell::lod {
+
+// The squared height of a point above or below a triangle; infinity where it is beside it.
+double squareHeightAbove(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
+
+// Ericson, Real-Time Collision Detection, 2005, section 5.1.5. Squared; exact up to rounding for slivers too.
+double squareDistance(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
+
+class TriangleTree {
+ public:
+  // places must outlive this.
+  TriangleTree(std::span<const GridPoint> places, std::span<const Triangle> triangles);
+
+  // The squared distance of the nearest triangle, `known` if none is nearer; any that is at most `enough` will do.
+  double squareDistance(glm::dvec3 point, double known, double enough) const;
+
+ private:
+  struct Box {
+    glm::ivec3 min{INT32_MAX}, max{INT32_MIN};
+    double squareDistance(glm::dvec3 point) const;
+  };
+  std::span<const GridPoint> places_;
+  std::vector<Triangle> triangles_;       // in Morton order
+  std::vector<std::vector<Box>> levels_;  // levels_[0]: of four triangles each; the last: one box
+};
+
+}  // namespace farcell::lod

@@ -1,0 +1,1 @@
+farcell_tests(preprocess/lod DEPS farcell_preprocess_lod farcell_preprocess_partition farcell_preprocess_bake)
