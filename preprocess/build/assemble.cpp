@@ -14,7 +14,6 @@ class Assembly {
       : context_(context), costs_(costs), fates_(fates), writer_(writer), directory_(directory) {}
 
   Result<> mesh(uint32_t cell) {
-    if (!context_.store.hasMesh(cell)) return {};
     CellRecord& record = directory_.cells[cell];
     FARCELL_ASSIGN(const CodedMesh mesh, context_.store.mesh(cell));
     record.meshTriangles = mesh.triangles;

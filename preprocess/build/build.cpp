@@ -1,7 +1,6 @@
 #include "preprocess/build/build.h"
 
 #include <malloc.h>
-#include <sys/stat.h>
 
 #include <chrono>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "preprocess/build/mesh_job.h"
 #include "preprocess/build/work_directory.h"
 #include "preprocess/mesh/source_hash.h"
+#include "preprocess/mesh/source_identity.h"
 #include "preprocess/partition/partition.h"
 #include "preprocess/read/open_mesh.h"
 #include "preprocess/texture/textures.h"
@@ -63,12 +63,20 @@ class Jobs {
 
   Result<> meshes() {
     const std::vector<uint32_t> leaves = without(leavesOf(context_.tree));
-    progress_.begin("mesh", leaves.size(), "cells");
-    return share(leaves.size(), [&](size_t job, int thread) -> Result<> {
-      FARCELL_TRY(codeLeaf(context_, leaves[job], samplers_[static_cast<size_t>(thread)].get()));
+    progress_.begin("mesh", context_.tree.cells.size(), "cells");
+    progress_.advance(context_.tree.cells.size() - leaves.size());
+    FARCELL_TRY(share(leaves.size(), [&](size_t job, int thread) -> Result<> {
       progress_.advance();
-      return {};
-    });
+      return codeLeaf(context_, leaves[job], samplers_[static_cast<size_t>(thread)].get());
+    }));
+    for (std::vector<uint32_t> level : innerCellsFromTheBottom(context_.tree)) {
+      level = without(std::move(level));
+      FARCELL_TRY(share(level.size(), [&](size_t job, int) -> Result<> {
+        progress_.advance();
+        return simplifyInner(context_, level[job]);
+      }));
+    }
+    return {};
   }
 
   Result<> views() {
@@ -124,26 +132,15 @@ Result<> checkSettings(const BuildSettings& settings) {
 
 namespace {
 
-// Of one state of a file's content.
-Result<std::string> fileStamp(const std::filesystem::path& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return fail(ErrorKind::io, "{}: cannot stat", path.string());
-  return fmt::format("{} {} {} {}.{}", path.string(), info.st_size, info.st_ino, info.st_mtim.tv_sec,
-                     info.st_mtim.tv_nsec);
-}
-
 // Everything that decides what jobs make; the identity of the work directory.
 Result<std::string> identityOf(const MeshReader& mesh, const BuildSettings& settings) {
   BuildSettings ofJobs = settings;
   ofJobs.packBudgetBytes = 0;  // the pack is put together anew each time
   ofJobs.budgetRule = BudgetRule::worth;
-  std::string text =
+  const std::string text =
       fmt::format("farcell {} pack {} settings {:016x}\n", FARCELL_VERSION, kPackVersion, hashSettings(ofJobs));
-  for (const std::filesystem::path& file : mesh.files()) {
-    FARCELL_ASSIGN(const std::string stamp, fileStamp(file));
-    text += fmt::format("{}\n", stamp);
-  }
-  return text;
+  FARCELL_ASSIGN(const SourceIdentity source, sourceIdentity(mesh));
+  return text + source.text();
 }
 
 class Build {
@@ -190,16 +187,18 @@ class Build {
   Result<> open() {
     FARCELL_TRY(checkSettings(options_.settings));
     FARCELL_TRY(checkOutput());
-    FARCELL_ASSIGN(reader_, openMeshes(meshes_));
+    workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
+    if (leads()) {
+      FARCELL_ASSIGN(WorkDirectory directory, WorkDirectory::open(options_.workParent, pack_));
+      workDirectory_.emplace(std::move(directory));
+    }
+    FARCELL_ASSIGN(reader_, openMeshes(meshes_, {options_.memoryBytes / 4, workPath_}));
     result_.files = reader_->files();
     settings_ = options_.settings;
     if (options_.upOfModel) settings_.up = reader_->info().up;
     if (options_.unitOfModel) settings_.metresPerUnit = reader_->info().metresPerUnit;
     FARCELL_TRY(readVisitable());
-    workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
     if (!leads()) return {};
-    FARCELL_ASSIGN(WorkDirectory directory, WorkDirectory::open(options_.workParent, pack_));
-    workDirectory_.emplace(std::move(directory));
     FARCELL_ASSIGN(const std::string identity, identityOf(*reader_, settings_));
     FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identity));
     FARCELL_ASSIGN(result_.directory.sourceHash, sourceHash(*reader_));
@@ -229,7 +228,9 @@ class Build {
     FARCELL_ASSIGN(Textures textures, Textures::open(reader_->textures(), workPath_, threads_, progress_));
     textures_.emplace(std::move(textures));
     result_.textures = {textures_->count() - textures_->leftOut().size(), textures_->leftOut()};
-    FARCELL_ASSIGN(Partition partition, partitionMesh(*reader_, settings_, workPath_, threads_, progress_));
+    const PartitionOptions options{workPath_ / "partition", threads_, options_.memoryBytes / 2};
+    FARCELL_TRY(makeDirectory(options.workDirectory));
+    FARCELL_ASSIGN(Partition partition, partitionMesh(*reader_, settings_, options, progress_));
     partition_.emplace(std::move(partition));
     tree_ = cellTreeOf(partition_->leaves, partition_->triangles);
     result_.seconds.partition = partition_->splitSeconds;
@@ -237,6 +238,13 @@ class Build {
     describe(result_.directory);
     reader_.reset();
     ::malloc_trim(0);  // vertices and chunks: jobs have the memory now
+    return {};
+  }
+
+  static Result<> makeDirectory(const std::filesystem::path& path) {
+    std::error_code code;
+    std::filesystem::create_directory(path, code);
+    if (code) return fail(ErrorKind::io, "{}: cannot make the directory: {}", path.string(), code.message());
     return {};
   }
 

@@ -6,6 +6,7 @@
 #include "cache/base/interrupt.h"
 #include "preprocess/encode/geometry_page.h"
 #include "preprocess/encode/vertex_colours.h"
+#include "preprocess/lod/simplify_cell.h"
 
 namespace farcell {
 namespace {
@@ -43,6 +44,62 @@ CodedPart codedPart(const GeometryPage& page) {
   return {decodedSizeBytes(ordered), encodeGeometryPage(ordered)};
 }
 
+// ---- inner cells ----
+
+// Welded, with quadrics, its edges and the trees by which distances are measured.
+constexpr uint64_t kBytesOfSimplifiedTriangle = 600;
+
+Result<LodMesh> storedMesh(const BuildContext& context, uint32_t cell) {
+  FARCELL_ASSIGN(const CodedMesh coded, context.store.mesh(cell));
+  const CellKey& key = context.tree.cells[cell].key;
+  const GridPoint cellMin = cellBox(context.model.grid, key).min;
+  const uint32_t maxCoordinate = 1u << (context.model.grid.bits - static_cast<int>(key.level));
+  LodMesh mesh;
+  for (const CodedPart& part : coded.parts) {
+    FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(part.bytes, {maxCoordinate, part.decodedBytes}));
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const glm::uvec3& position : page.positions) mesh.positions.push_back(cellMin + GridPoint(position));
+    for (const uint32_t index : page.indices) mesh.indices.push_back(first + index);
+    mesh.colours.insert(mesh.colours.end(), page.colours.begin(), page.colours.end());
+    mesh.normals.insert(mesh.normals.end(), page.normals.begin(), page.normals.end());
+  }
+  return mesh;
+}
+
+// Triangles [first, first + count) with the vertices that they use.
+GeometryPage pageOf(const LodMesh& mesh, size_t first, size_t count, GridPoint cellMin) {
+  GeometryPage page;
+  std::vector<uint32_t> numbers(mesh.positions.size(), UINT32_MAX);
+  for (size_t i = 3 * first; i < 3 * (first + count); ++i) {
+    const uint32_t vertex = mesh.indices[i];
+    if (numbers[vertex] == UINT32_MAX) {
+      numbers[vertex] = static_cast<uint32_t>(page.positions.size());
+      page.positions.push_back(glm::uvec3(mesh.positions[vertex] - cellMin));
+      if (!mesh.colours.empty()) page.colours.push_back(mesh.colours[vertex]);
+      if (!mesh.normals.empty()) page.normals.push_back(mesh.normals[vertex]);
+    }
+    page.indices.push_back(numbers[vertex]);
+  }
+  return page;
+}
+
+struct Children {
+  uint64_t triangles = 0;
+  double errorSteps = 0;
+  bool whole = true;  // all have a mesh of what they hold
+};
+
+Children childrenOf(const BuildContext& context, const CellRecord& cell) {
+  Children children;
+  for (uint32_t child = cell.firstChild; child < cell.firstChild + cell.childCount; ++child) {
+    const MeshFigures mesh = context.store.meshFigures(child);
+    children.triangles += mesh.triangles;
+    children.errorSteps = std::max(children.errorSteps, mesh.errorSteps);
+    children.whole = children.whole && (mesh.triangles > 0 || context.tree.cells[child].triangles == 0);
+  }
+  return children;
+}
+
 }  // namespace
 
 Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* textures) {
@@ -65,6 +122,33 @@ Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* te
   FARCELL_TRY(parts.flush());
   if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
   return context.store.add(cell, mesh);
+}
+
+Result<> simplifyInner(const BuildContext& context, uint32_t cell) {
+  const CellRecord& record = context.tree.cells[cell];
+  const auto leafTriangles = static_cast<uint64_t>(context.model.settings.leafTriangles);
+  const Children children = childrenOf(context, record);
+  if (!children.whole || children.triangles > kMaxSimplifiedLeaves * leafTriangles) return context.store.add(cell, {});
+  FARCELL_ASSIGN(const MemoryGate::Share share,
+                 context.gate.take(children.triangles * kBytesOfSimplifiedTriangle, "simplifying a cell"));
+  const Lap lap(context.clock.meshNs);
+  std::vector<LodMesh> meshes;
+  for (uint32_t child = record.firstChild; child < record.firstChild + record.childCount; ++child) {
+    FARCELL_ASSIGN(LodMesh mesh, storedMesh(context, child));
+    meshes.push_back(std::move(mesh));
+  }
+  // A surface four times as large, twice as coarse: as many triangles as a leaf has on average.
+  const LodSettings settings{std::max<uint64_t>(1, leafTriangles / 2), context.model.settings.simplifier};
+  FARCELL_ASSIGN(const SimplifiedCell simplified,
+                 simplifyCell(context.model.grid, record.key, meshes, children.errorSteps, settings));
+  meshes.clear();
+  const LodMesh& mesh = simplified.mesh;
+  const GridPoint cellMin = cellBox(context.model.grid, record.key).min;
+  CodedMesh coded{mesh.triangles(), simplified.errorSteps, {}};
+  for (size_t first = 0; first < mesh.triangles(); first += kPartTriangles)
+    coded.parts.push_back(
+        codedPart(pageOf(mesh, first, std::min<size_t>(kPartTriangles, mesh.triangles() - first), cellMin)));
+  return context.store.add(cell, coded);
 }
 
 std::vector<uint32_t> leavesOf(const CellTree& tree) {

@@ -11,6 +11,12 @@ namespace farcell {
 // Codes and stores the triangles of a leaf, in parts. textures as for bakeBatch: they become colours of vertices.
 Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* textures);
 
+// Simplifies the meshes of an inner cell's children, which are stored, codes and stores the result. The cell gets no mesh
+// where that would have to be made of more than these triangles a leaf may have (a leaf that no plane could split), or a
+// child that holds something has none.
+inline constexpr uint64_t kMaxSimplifiedLeaves = 8;
+Result<> simplifyInner(const BuildContext& context, uint32_t cell);
+
 // Leaves; and inner cells by level, the deepest first: jobs of one list do not depend on each other.
 std::vector<uint32_t> leavesOf(const CellTree& tree);
 std::vector<std::vector<uint32_t>> innerCellsFromTheBottom(const CellTree& tree);

@@ -14,15 +14,10 @@
 #include <span>
 
 #include "cache/base/result.h"
-#include "cache/schema/grid.h"
+#include "cache/schema/model.h"
 #include "preprocess/lod/lod_mesh.h"
 
 namespace farcell {
-
-enum class Simplifier {
-  collapse,  // ours
-  openmesh,  // OpenMesh's decimater: slower
-};
 
 struct LodSettings {
   uint64_t targetTriangles = 16384;
