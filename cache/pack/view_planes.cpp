@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 
 #include "cache/base/check.h"
 #include "cache/pack/bytes.h"
@@ -149,13 +150,24 @@ bool expand(ByteReader& in, std::span<const uint8_t> mask, std::span<uint8_t> pl
   for (const uint8_t m : mask) count += m & 1;
   const std::span<const std::byte> stored = in.take(count);
   if (stored.size() != count) return false;
-  size_t used = 0;
+  const std::byte* next = stored.data();
+  const auto expandTexel = [&](size_t i) { plane[i] = mask[i] != 0 ? std::to_integer<uint8_t>(*next++) : uint8_t{0}; };
+  // Eight at a time: most lie inside the mask or outside.
+  constexpr size_t kChunk = 8;
   size_t i = 0;
-  for (; used < count; ++i) {
-    plane[i] = std::to_integer<uint8_t>(stored[used]) & mask[i];
-    used += mask[i] & 1;
+  for (; i + kChunk <= plane.size(); i += kChunk) {
+    uint64_t chunk = 0;
+    std::memcpy(&chunk, mask.data() + i, kChunk);
+    if (chunk == 0) {
+      std::memset(plane.data() + i, 0, kChunk);
+    } else if (chunk == ~uint64_t{0}) {
+      std::memcpy(plane.data() + i, next, kChunk);
+      next += kChunk;
+    } else {
+      for (size_t k = 0; k < kChunk; ++k) expandTexel(i + k);
+    }
   }
-  std::fill(plane.begin() + static_cast<ptrdiff_t>(i), plane.end(), uint8_t{0});
+  for (; i < plane.size(); ++i) expandTexel(i);
   return true;
 }
 
