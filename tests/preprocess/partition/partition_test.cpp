@@ -38,7 +38,6 @@ class MemoryMesh : public MeshReader {
 
 InputTriangle inputTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   InputTriangle triangle{};
-  triangle.texture = kNoTexture;
   triangle.positions = {a, b, c};
   return triangle;
 }
