@@ -19,7 +19,10 @@ class MemoryMesh : public MeshReader {
  public:
   explicit MemoryMesh(std::vector<InputTriangle> triangles) : triangles_(std::move(triangles)) {
     info_.declaredTriangles = triangles_.size();
+    for (const InputTriangle& triangle : triangles_)
+      if (triangle.texture != kNoTexture) textures_.resize(std::max<size_t>(textures_.size(), triangle.texture + 1));
   }
+  std::span<const TextureSource> textures() const override { return textures_; }
   const MeshInfo& info() const override { return info_; }
   std::vector<std::filesystem::path> files() const override { return {}; }
   Result<MeshCounts> forEachTriangle(const Sink& sink) override {
@@ -30,6 +33,7 @@ class MemoryMesh : public MeshReader {
  private:
   MeshInfo info_;
   std::vector<InputTriangle> triangles_;
+  std::vector<TextureSource> textures_;
 };
 
 InputTriangle inputTriangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
