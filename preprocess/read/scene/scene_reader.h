@@ -19,7 +19,7 @@ inline constexpr size_t kMaxSceneFiles = 1000;  // each stays open
 struct ScenePart {
   std::unique_ptr<MeshReader> mesh;
   std::vector<Placement> placements;  // at least one
-  MemoryClaim claim;                  // to them
+  MemoryClaim claim{};                // to them
 };
 
 struct SceneOptions {
