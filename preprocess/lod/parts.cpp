@@ -13,7 +13,9 @@ namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
 // A part stands for others along the curve that are within this many times the root of the area that makes it small.
-constexpr double kReach = 2;
+constexpr double kReach = 8;
+// Nor does a long, thin one grow longer than this many times the root of the area that it stands for.
+constexpr double kMostLength = 12;
 constexpr int kBisections = 30;
 // Less is not worth moving places for.
 constexpr double kLeastEnlargement = 1.01;
@@ -173,7 +175,8 @@ std::vector<GridPoint> Parts::enlarged(const std::vector<Triangle>& triangles) c
     const Extent& extent = extents[partOf_[place]];
     const glm::dvec3 size = extent.max - extent.min, room = high - low;
     const double fits = std::min({room.x / size.x, room.y / size.y, room.z / size.z});
-    const double factor = std::min(std::sqrt(areas_[partOf_[place]] / own[partOf_[place]]), fits);
+    const double root = std::sqrt(areas_[partOf_[place]]), longest = kMostLength * root / glm::length(size);
+    const double factor = std::min({root / std::sqrt(own[partOf_[place]]), fits, longest});
     if (!(factor >= kLeastEnlargement)) continue;
     const glm::dvec3 middle = glm::clamp(extent.middle(), low + 0.5 * factor * size, high - 0.5 * factor * size);
     const glm::dvec3 moved = middle + (glm::dvec3(places[place]) - extent.middle()) * factor;
