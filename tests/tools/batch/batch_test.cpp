@@ -88,7 +88,8 @@ echo '{"input":{"triangles":5},"bytes":{"pack":5},"files":["'"$mesh"'"]}'
   // "ok", "failed", ... of each, in order.
   static std::vector<std::string> outcomes(const std::string& out) {
     std::vector<std::string> list;
-    for (const Json& set : Json::parse(out).at("datasets")) list.push_back(set.at("outcome"));
+    const Json report = Json::parse(out);
+    for (const Json& set : report.at("datasets")) list.push_back(set.at("outcome"));
     return list;
   }
 

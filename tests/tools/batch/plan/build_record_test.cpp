@@ -73,7 +73,9 @@ TEST_F(BuildRecordTest, DamagedTextIsNoRecordOrTheOneItSays) {
   for (int i = 0; i < 2'000; ++i) {
     std::string text = whole;
     text[random() % text.size()] = static_cast<char>(random());
-    if (const auto record = parseRecord(text)) EXPECT_EQ(parseRecord(recordText(*record)), record);
+    if (const auto record = parseRecord(text)) {
+      EXPECT_EQ(parseRecord(recordText(*record)), record);
+    }
   }
   EXPECT_FALSE(parseRecord(std::string(1'000'000, '[')));
   EXPECT_FALSE(parseRecord("{\"version\":1}"));
