@@ -22,6 +22,7 @@ class Assembly {
       FARCELL_ASSIGN(const uint32_t page, writer_.add(PageKind::geometry, cell, record.geometryPageCount,
                                                       part.decodedBytes, part.bytes));
       if (record.geometryPageCount++ == 0) record.firstGeometryPage = page;
+      directory_.report.geometryBytes += part.bytes.size();
     }
     return {};
   }
@@ -52,6 +53,7 @@ class Assembly {
     CellRecord& record = directory_.cells[cell];
     if (record.viewPageCount++ == 0) record.firstViewPage = index;
     BuildReport& report = directory_.report;
+    report.impostorBytes += page.bytes.size();
     report.viewsKept += views.size() - page.duplicates;
     for (const EncodedView& view : views) report.impostorRawBytes += view.decodedBytes;
     if (page.duplicates == 0) return {};

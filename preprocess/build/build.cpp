@@ -186,6 +186,9 @@ class Build {
   // The leader opens the work directory, the others only read there.
   Result<> open() {
     FARCELL_TRY(checkSettings(options_.settings));
+    if (options_.memoryBytes < kMinMemoryBytes)
+      return fail(ErrorKind::invalidArgument, "memory: expected at least {} MiB, found {}", kMinMemoryBytes >> 20,
+                  options_.memoryBytes >> 20);
     FARCELL_TRY(checkOutput());
     workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
     if (leads()) {
@@ -202,7 +205,23 @@ class Build {
     FARCELL_ASSIGN(const std::string identity, identityOf(*reader_, settings_));
     FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identity));
     FARCELL_ASSIGN(result_.directory.sourceHash, sourceHash(*reader_));
-    return {};
+    return result_.resumed ? Result<>() : preflight();
+  }
+
+  // Whether the disk can hold what is to come, as far as the input tells.
+  Result<> preflight() {
+    constexpr uint64_t kJobsBytesOfTriangle = 50;  // coded views and meshes of a triangle: twice the usual
+    const MeshInfo& info = reader_->info();
+    const uint64_t needed = scratchBytesEstimate(info, !reader_->textures().empty()) +
+                            kJobsBytesOfTriangle * info.declaredTriangles;
+    FARCELL_ASSIGN(const uint64_t free, freeBytes(workPath_));
+    if (options_.tell)
+      options_.tell(fmt::format("{}: about {:.2f} GB for work, {:.2f} GB free", workPath_.string(),
+                                1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free)));
+    progress_.budget("disk", needed, [path = workPath_] { return directoryBytes(path); });
+    if (free >= needed) return {};
+    return fail(ErrorKind::exhausted, "{}: expected {} bytes free for work, found {}; --work-dir may name another place",
+                workPath_.string(), needed, free);
   }
 
   Result<> readVisitable() {
@@ -299,6 +318,9 @@ class Build {
   }
 
   void shareTime(const WorkClock& clock, double wall) {
+    result_.cpuSeconds.lod = 1e-9 * static_cast<double>(clock.meshNs);
+    result_.cpuSeconds.bake = 1e-9 * static_cast<double>(clock.bakeNs);
+    result_.cpuSeconds.encode = 1e-9 * static_cast<double>(clock.encodeNs);
     const double work = std::max(static_cast<double>(clock.meshNs + clock.bakeNs + clock.encodeNs), 1.0);
     result_.seconds.lod = wall * static_cast<double>(clock.meshNs) / work;
     result_.seconds.bake = wall * static_cast<double>(clock.bakeNs) / work;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct BuildOptions {
   std::string visitable = "everywhere";    // where visitors may be, as readRegion takes it
   std::filesystem::path workParent;  // where the work directory lies; empty: where the pack goes
   Crew* crew = nullptr;              // null: this process alone
+  std::function<void(const std::string& line)> tell;  // what people want to know before it begins; may be empty
 };
 
 // Wall seconds; lod, bake and encode overlap, and share the wall time of their stage by the work of each.
@@ -48,6 +50,7 @@ struct BuildResult {
   Directory directory;
   uint64_t packBytes = 0;
   StageSeconds seconds;
+  StageSeconds cpuSeconds;  // processor time of all threads; lod, bake and encode only
   TextureReport textures;
   std::vector<std::filesystem::path> files;  // that it was read from, see MeshReader
 };

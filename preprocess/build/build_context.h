@@ -1,8 +1,9 @@
 // What every job of a build shares.
 #pragma once
 
+#include <time.h>
+
 #include <atomic>
-#include <chrono>
 #include <vector>
 
 #include "cache/schema/viewpoints.h"
@@ -14,24 +15,28 @@
 
 namespace farcell {
 
-// Seconds of work, of all threads.
+// Processor time of all threads.
 struct WorkClock {
   std::atomic<int64_t> meshNs{0}, bakeNs{0}, encodeNs{0};
 };
 
-// Adds what passes until its end to a clock.
+// Adds the processor time of this thread until its end to a clock.
 class Lap {
  public:
   explicit Lap(std::atomic<int64_t>& sum) : sum_(sum) {}
   Lap(const Lap&) = delete;
   Lap& operator=(const Lap&) = delete;
-  ~Lap() {
-    sum_ += std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start_).count();
-  }
+  ~Lap() { sum_ += threadNs() - start_; }
 
  private:
+  static int64_t threadNs() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  }
+
   std::atomic<int64_t>& sum_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const int64_t start_ = threadNs();
 };
 
 struct BuildContext {

@@ -100,4 +100,14 @@ Result<uint64_t> freeBytes(const fs::path& directory) {
   return space.available;
 }
 
+uint64_t directoryBytes(const fs::path& directory) {
+  uint64_t bytes = 0;
+  std::error_code code, ignored;
+  for (fs::recursive_directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
+    const uint64_t size = entry->is_regular_file(ignored) ? entry->file_size(ignored) : 0;
+    if (!ignored) bytes += size;
+  }
+  return bytes;
+}
+
 }  // namespace farcell

@@ -40,7 +40,8 @@ class WorkDirectory {
   int lock_ = -1;
 };
 
-// Bytes that may still be written to the file system of a directory.
+// Bytes that may still be written to the file system of a directory, and those of all files in it.
 Result<uint64_t> freeBytes(const std::filesystem::path& directory);
+uint64_t directoryBytes(const std::filesystem::path& directory);
 
 }  // namespace farcell

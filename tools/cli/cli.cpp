@@ -115,6 +115,18 @@ Result<uint64_t> parseCount(const std::string& text) {
   return static_cast<uint64_t>(std::round(count));
 }
 
+Result<uint64_t> parseBytes(const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit(end, text.data() + text.size());
+  constexpr std::string_view kUnits = "KMGT";
+  const size_t power = unit.size() == 1 ? kUnits.find(unit[0] == 'k' ? 'K' : unit[0]) : std::string_view::npos;
+  const double bytes = std::round(unit.empty() ? value : std::ldexp(value, 10 * (static_cast<int>(power) + 1)));
+  if (code != std::errc{} || (!unit.empty() && power == std::string_view::npos) || !(bytes >= 0 && bytes <= 1e18))
+    return fail(ErrorKind::invalidArgument, "expected bytes such as 1234, 512M or 2G, found '{}'", text);
+  return static_cast<uint64_t>(bytes);
+}
+
 Result<ImageSize> parseImageSize(const std::string& text) {
   ImageSize size;
   const char* end = text.data() + text.size();

@@ -23,6 +23,8 @@ void addProgressOption(CLI::App& app, ProgressForm& form);
 
 // "5M", "500k", "2G", "1234" -> a count (decimal factors). invalidArgument otherwise.
 Result<uint64_t> parseCount(const std::string& text);
+// "512M", "2G", "1234" -> bytes (K, M, G, T are powers of 1024). invalidArgument otherwise.
+Result<uint64_t> parseBytes(const std::string& text);
 // "1280x720"; both in [1, 16384].
 struct ImageSize {
   int width = 0;

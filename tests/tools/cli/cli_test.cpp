@@ -34,6 +34,18 @@ TEST(ParseCount, TakesPlainNumbersAndDecimalFactors) {
   }
 }
 
+TEST(ParseBytes, TakesPlainNumbersAndPowersOf1024) {
+  const std::vector<std::pair<std::string, uint64_t>> sizes = {
+      {"0", 0}, {"1234", 1234}, {"4k", 4096}, {"4K", 4096}, {"512M", 512u << 20}, {"2G", uint64_t{2} << 30},
+      {"1.5G", uint64_t{3} << 29}, {"3T", uint64_t{3} << 40}};
+  for (const auto& [text, bytes] : sizes) EXPECT_EQ(parseBytes(text).value_or(7), bytes) << text;
+  for (const std::string text : {"", "M", "-1", "5 M", "5MB", "5m", "5P", "nan", "inf", "1e19", "five", "2GG"}) {
+    const auto parsed = parseBytes(text);
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_NE(parsed.error().message.find("'" + text + "'"), std::string::npos) << parsed.error().message;
+  }
+}
+
 TEST(ParseCount, RefusesEverythingElseAndQuotesIt) {
   for (const std::string text :
        {"",      "k",   "M5",      "-1",  "-5M", "5 M",  " 5",    "5 ",   "5MM",         "5m", "5T",   "5kM", "0x10",

@@ -1,4 +1,4 @@
-#include "tools/build_mpi/mpi_crew.h"
+#include "tools/build/mpi/mpi_crew.h"
 
 #include <mpi.h>
 
