@@ -15,7 +15,7 @@ constexpr uint32_t kNone = UINT32_MAX;
 // A part stands for others along the curve that are within this many times the root of the area that makes it small.
 constexpr double kReach = 8;
 // Nor does a long, thin one grow longer than this many times the root of the area that it stands for.
-constexpr double kMostLength = 12;
+constexpr double kMostLength = 24;
 constexpr int kBisections = 30;
 // Less is not worth moving places for.
 constexpr double kLeastEnlargement = 1.01;
