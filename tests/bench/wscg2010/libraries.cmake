@@ -17,4 +17,4 @@ farcell_library(tests/bench/wscg2010/draw DEPS farcell_tests_bench_wscg2010_scen
 farcell_library(tests/bench/wscg2010/measure
                 DEPS farcell_tests_bench_wscg2010_draw farcell_tools_evaluate_reference farcell_tools_image
                 PRIVATE PkgConfig::webp PkgConfig::lzma ZLIB::ZLIB
-                APART errors.cpp image_store.cpp references.cpp)
+                APART errors.cpp image_store.cpp coders.cpp references.cpp)
