@@ -65,7 +65,8 @@ Result<int> openPartial(const std::filesystem::path& name) {
   for (;;) {
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     if (descriptor < 0) return ioError(name, "cannot create", errno);
-    struct stat opened {}, named {};
+    struct stat opened {
+    }, named{};
     const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     if (locked && ::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && ::stat(name.c_str(), &named) == 0 &&
         opened.st_ino == named.st_ino)

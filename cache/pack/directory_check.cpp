@@ -92,8 +92,9 @@ class Checker {
     if (!std::isfinite(s.metresPerUnit) || !(s.metresPerUnit > 0))
       return wrongModel("a unit above 0 metres", fmt::format("{}", s.metresPerUnit));
     if (s.simplifier > Simplifier::openmesh || s.budgetRule > BudgetRule::triangles)
-      return wrongModel("a simplifier and a budget rule of 0 or 1",
-                        fmt::format("{}, {}", static_cast<uint32_t>(s.simplifier), static_cast<uint32_t>(s.budgetRule)));
+      return wrongModel(
+          "a simplifier and a budget rule of 0 or 1",
+          fmt::format("{}, {}", static_cast<uint32_t>(s.simplifier), static_cast<uint32_t>(s.budgetRule)));
     return {};
   }
 

@@ -124,9 +124,9 @@ BuildReport readReport(ByteReader& in, bool& valid) {
 }
 
 void write(ByteWriter& out, const CellRecord& cell) {
-  for (const uint32_t value : {cell.key.level, cell.key.x, cell.key.y, cell.key.z, cell.parent, cell.firstChild,
-                               cell.childCount, cell.firstGeometryPage, cell.geometryPageCount, cell.firstViewPage,
-                               cell.viewPageCount})
+  for (const uint32_t value :
+       {cell.key.level, cell.key.x, cell.key.y, cell.key.z, cell.parent, cell.firstChild, cell.childCount,
+        cell.firstGeometryPage, cell.geometryPageCount, cell.firstViewPage, cell.viewPageCount})
     out.u32(value);
   write(out, cell.content);
   out.u64(cell.triangles);
@@ -136,9 +136,9 @@ void write(ByteWriter& out, const CellRecord& cell) {
 
 CellRecord readCell(ByteReader& in) {
   CellRecord cell;
-  for (uint32_t* value : {&cell.key.level, &cell.key.x, &cell.key.y, &cell.key.z, &cell.parent, &cell.firstChild,
-                          &cell.childCount, &cell.firstGeometryPage, &cell.geometryPageCount, &cell.firstViewPage,
-                          &cell.viewPageCount})
+  for (uint32_t* value :
+       {&cell.key.level, &cell.key.x, &cell.key.y, &cell.key.z, &cell.parent, &cell.firstChild, &cell.childCount,
+        &cell.firstGeometryPage, &cell.geometryPageCount, &cell.firstViewPage, &cell.viewPageCount})
     *value = in.u32();
   cell.content = readBox(in);
   cell.triangles = in.u64();

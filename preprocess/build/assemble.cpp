@@ -19,8 +19,8 @@ class Assembly {
     record.meshTriangles = mesh.triangles;
     record.geometricError = mesh.errorSteps * directory_.model.grid.step();
     for (const CodedPart& part : mesh.parts) {
-      FARCELL_ASSIGN(const uint32_t page, writer_.add(PageKind::geometry, cell, record.geometryPageCount,
-                                                      part.decodedBytes, part.bytes));
+      FARCELL_ASSIGN(const uint32_t page,
+                     writer_.add(PageKind::geometry, cell, record.geometryPageCount, part.decodedBytes, part.bytes));
       if (record.geometryPageCount++ == 0) record.firstGeometryPage = page;
       directory_.report.geometryBytes += part.bytes.size();
     }

@@ -55,7 +55,8 @@ class Batch {
     CellSoup soup;
     {
       const Lap lap(context_.clock.bakeNs);
-      for (const uint32_t leaf : leaves_) FARCELL_TRY(source_.append(batch_.cell, leaf, soup, [] { return Result<>(); }));
+      for (const uint32_t leaf : leaves_)
+        FARCELL_TRY(source_.append(batch_.cell, leaf, soup, [] { return Result<>(); }));
     }
     ViewBaker baker(settings_, textures_);
     for (const int view : pairs_) {

@@ -39,15 +39,14 @@ Samplers samplersOf(const Textures& textures, int threads) {
   return samplers;
 }
 
-// Runs jobs of this process's share on all threads, until the first error.
-Result<> runJobs(size_t count, int threads, Crew& crew, const std::function<Result<>(size_t job, int thread)>& run) {
+// Runs jobs on all threads, until the first error.
+Result<> runJobs(size_t count, int threads, const std::function<Result<>(size_t job, int thread)>& run) {
   std::atomic<bool> failed{false};
   std::mutex mutex;
   std::optional<Error> error;
-  const size_t own = (count + crew.size() - 1 - crew.rank()) / crew.size();
-  parallelFor(own, threads, [&](size_t i, int thread) {
+  parallelFor(count, threads, [&](size_t job, int thread) {
     if (failed) return;
-    const Result<> done = checkInterrupt().and_then([&] { return run(i * crew.size() + crew.rank(), thread); });
+    const Result<> done = checkInterrupt().and_then([&] { return run(job, thread); });
     if (done || failed.exchange(true)) return;
     const std::lock_guard lock(mutex);
     error = done.error();
@@ -62,16 +61,17 @@ class Jobs {
       : context_(context), samplers_(samplers), threads_(threads), crew_(crew), progress_(progress) {}
 
   Result<> meshes() {
-    const std::vector<uint32_t> leaves = without(leavesOf(context_.tree));
-    progress_.begin("mesh", context_.tree.cells.size(), "cells");
-    progress_.advance(context_.tree.cells.size() - leaves.size());
-    FARCELL_TRY(share(leaves.size(), [&](size_t job, int thread) -> Result<> {
+    const std::vector<uint32_t> leaves = ownCells(leavesOf(context_.tree));
+    std::vector<std::vector<uint32_t>> levels = innerCellsFromTheBottom(context_.tree);
+    uint64_t count = leaves.size();
+    for (std::vector<uint32_t>& level : levels) count += (level = ownCells(level)).size();
+    progress_.begin("mesh", count, "cells");
+    FARCELL_TRY(run(leaves.size(), [&](size_t job, int thread) -> Result<> {
       progress_.advance();
       return codeLeaf(context_, leaves[job], samplers_[static_cast<size_t>(thread)].get());
     }));
-    for (std::vector<uint32_t> level : innerCellsFromTheBottom(context_.tree)) {
-      level = without(std::move(level));
-      FARCELL_TRY(share(level.size(), [&](size_t job, int) -> Result<> {
+    for (const std::vector<uint32_t>& level : levels) {
+      FARCELL_TRY(run(level.size(), [&](size_t job, int) -> Result<> {
         progress_.advance();
         return simplifyInner(context_, level[job]);
       }));
@@ -80,12 +80,12 @@ class Jobs {
   }
 
   Result<> views() {
-    std::vector<ViewBatch> batches = viewBatches(context_);
-    std::erase_if(batches, [&](const ViewBatch& batch) { return context_.store.has(batch); });
+    const std::vector<ViewBatch> batches =
+        own(viewBatches(context_), [&](const ViewBatch& batch) { return context_.store.has(batch); });
     uint64_t pairs = 0;
     for (const ViewBatch& batch : batches) pairs += batch.pairCount;
     progress_.begin("bake", 2 * pairs, "views");
-    return share(batches.size(), [&](size_t job, int thread) -> Result<> {
+    return run(batches.size(), [&](size_t job, int thread) -> Result<> {
       FARCELL_TRY(bakeBatch(context_, batches[job], samplers_[static_cast<size_t>(thread)].get()));
       progress_.advance(2 * uint64_t{batches[job].pairCount});
       return {};
@@ -93,12 +93,21 @@ class Jobs {
   }
 
  private:
-  std::vector<uint32_t> without(std::vector<uint32_t> cells) const {
-    std::erase_if(cells, [&](uint32_t cell) { return context_.store.hasMesh(cell); });
-    return cells;
+  // The jobs that fall to this process and are not done. Which fall to whom depends on nothing else: processes do not
+  // learn at the same moment of what is done.
+  template <class Job, class Done>
+  std::vector<Job> own(const std::vector<Job>& all, const Done& done) const {
+    std::vector<Job> jobs;
+    for (size_t i = crew_.rank(); i < all.size(); i += crew_.size())
+      if (!done(all[i])) jobs.push_back(all[i]);
+    return jobs;
   }
-  Result<> share(size_t count, const std::function<Result<>(size_t job, int thread)>& run) {
-    FARCELL_TRY(crew_.together(runJobs(count, threads_, crew_, run)));
+  std::vector<uint32_t> ownCells(const std::vector<uint32_t>& all) const {
+    return own(all, [&](uint32_t cell) { return context_.store.hasMesh(cell); });
+  }
+  // Ends when all processes have done theirs, and knows what they have done.
+  Result<> run(size_t count, const std::function<Result<>(size_t job, int thread)>& job) {
+    FARCELL_TRY(crew_.together(runJobs(count, threads_, job)));
     return context_.store.refresh();
   }
 
@@ -212,16 +221,17 @@ class Build {
   Result<> preflight() {
     constexpr uint64_t kJobsBytesOfTriangle = 50;  // coded views and meshes of a triangle: twice the usual
     const MeshInfo& info = reader_->info();
-    const uint64_t needed = scratchBytesEstimate(info, !reader_->textures().empty()) +
-                            kJobsBytesOfTriangle * info.declaredTriangles;
+    const uint64_t needed =
+        scratchBytesEstimate(info, !reader_->textures().empty()) + kJobsBytesOfTriangle * info.declaredTriangles;
     FARCELL_ASSIGN(const uint64_t free, freeBytes(workPath_));
     if (options_.tell)
       options_.tell(fmt::format("{}: about {:.2f} GB for work, {:.2f} GB free", workPath_.string(),
                                 1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free)));
     progress_.budget("disk", needed, [path = workPath_] { return directoryBytes(path); });
     if (free >= needed) return {};
-    return fail(ErrorKind::exhausted, "{}: expected {} bytes free for work, found {}; --work-dir may name another place",
-                workPath_.string(), needed, free);
+    return fail(ErrorKind::exhausted,
+                "{}: expected {} bytes free for work, found {}; --work-dir may name another place", workPath_.string(),
+                needed, free);
   }
 
   Result<> readVisitable() {
@@ -287,8 +297,16 @@ class Build {
     MemoryGate gate(jobMemory());
     WorkClock clock;
     const std::vector<ViewMask> seen = seenViews(viewpoints);
-    const BuildContext context{directory.model, tree_, *partition_, viewpoints, seen, textures_->count() > 0, *store_,
-                               gate, jobMemory() / static_cast<uint64_t>(threads_), clock};
+    const BuildContext context{directory.model,
+                               tree_,
+                               *partition_,
+                               viewpoints,
+                               seen,
+                               textures_->count() > 0,
+                               *store_,
+                               gate,
+                               jobMemory() / static_cast<uint64_t>(threads_),
+                               clock};
     const Samplers samplers = samplersOf(*textures_, threads_);
     Jobs jobs(context, samplers, threads_, crew_, progress_);
     FARCELL_TRY(jobs.meshes());

@@ -24,13 +24,13 @@ inline constexpr uint64_t kMinMemoryBytes = uint64_t{192} << 20;
 
 struct BuildOptions {
   BuildSettings settings;
-  bool upOfModel = false;                  // settings.up is as the files say (MeshInfo) instead
-  bool unitOfModel = false;                // settings.metresPerUnit likewise
-  int threads = 0;                         // 0: all
-  uint64_t memoryBytes = kDefaultMemoryBytes;  // of this process; never passed
-  std::string visitable = "everywhere";    // where visitors may be, as readRegion takes it
-  std::filesystem::path workParent;  // where the work directory lies; empty: where the pack goes
-  Crew* crew = nullptr;              // null: this process alone
+  bool upOfModel = false;                             // settings.up is as the files say (MeshInfo) instead
+  bool unitOfModel = false;                           // settings.metresPerUnit likewise
+  int threads = 0;                                    // 0: all
+  uint64_t memoryBytes = kDefaultMemoryBytes;         // of this process; never passed
+  std::string visitable = "everywhere";               // where visitors may be, as readRegion takes it
+  std::filesystem::path workParent;                   // where the work directory lies; empty: where the pack goes
+  Crew* crew = nullptr;                               // null: this process alone
   std::function<void(const std::string& line)> tell;  // what people want to know before it begins; may be empty
 };
 

@@ -23,10 +23,9 @@ Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& 
                                                    const ViewLimits& limits) {
   std::unique_ptr<CellStore> store(new CellStore(limits));
   CellStore* const raw = store.get();
-  FARCELL_ASSIGN(Journal journal,
-                 Journal::open(workDirectory, writer,
-                               [raw](const JournalRecord& record, std::span<const std::byte> head,
-                                     const JournalPlace& place) { raw->found(record, head, place); }));
+  FARCELL_ASSIGN(Journal journal, Journal::open(workDirectory, writer,
+                                                [raw](const JournalRecord& record, std::span<const std::byte> head,
+                                                      const JournalPlace& place) { raw->found(record, head, place); }));
   store->journal_ = std::make_unique<Journal>(std::move(journal));
   return store;
 }
@@ -135,9 +134,8 @@ Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {
 std::vector<ViewCost> CellStore::viewCosts() const {
   const std::lock_guard lock(mutex_);
   std::vector<ViewCost> views = views_;
-  std::sort(views.begin(), views.end(), [](const ViewCost& a, const ViewCost& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.view < b.view;
-  });
+  std::sort(views.begin(), views.end(),
+            [](const ViewCost& a, const ViewCost& b) { return a.cell != b.cell ? a.cell < b.cell : a.view < b.view; });
   return views;
 }
 

@@ -64,8 +64,7 @@ struct Journal::Impl {
 
   // Opens the files there are, up to the first that is missing; the own one is made.
   Result<> openFiles() {
-    while (files.size() < kMaxWriters &&
-           (files.size() <= writer || std::filesystem::exists(pathOf(files.size())))) {
+    while (files.size() < kMaxWriters && (files.size() <= writer || std::filesystem::exists(pathOf(files.size())))) {
       FARCELL_ASSIGN(GrowingFile file, GrowingFile::open(pathOf(files.size())));
       files.push_back(std::make_unique<File>(File{std::move(file), 0}));
     }

@@ -1,9 +1,9 @@
 // Files to which records are only ever added, so that what was finished before a crash is found again.
 //
-// A journal is a directory of them: each process adds to its own file and reads everybody's. A record has a head, small,
-// which is told to the sink when it is found, and a body, which is read when it is needed. Both have checksums. What a
-// crash left at the end of a file - half a record, or after a loss of power bytes that never reached the disk - ends the
-// file there; only the process that owns the file cuts it off.
+// A journal is a directory of them: each process adds to its own file and reads everybody's. A record has a head,
+// small, which is told to the sink when it is found, and a body, which is read when it is needed. Both have checksums.
+// What a crash left at the end of a file - half a record, or after a loss of power bytes that never reached the disk -
+// ends the file there; only the process that owns the file cuts it off.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Jobs that make the meshes of cells: a leaf's full triangles, and for inner cells, from the bottom up, simplified ones.
+// Jobs that make the meshes of cells: a leaf's full triangles, and for inner cells, from the bottom up, simplified
+// ones.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@ namespace farcell {
 // Codes and stores the triangles of a leaf, in parts. textures as for bakeBatch: they become colours of vertices.
 Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* textures);
 
-// Simplifies the meshes of an inner cell's children, which are stored, codes and stores the result. The cell gets no mesh
-// where that would have to be made of more than these triangles a leaf may have (a leaf that no plane could split), or a
-// child that holds something has none.
+// Simplifies the meshes of an inner cell's children, which are stored, codes and stores the result. The cell gets no
+// mesh where that would have to be made of more than these triangles a leaf may have (a leaf that no plane could
+// split), or a child that holds something has none.
 inline constexpr uint64_t kMaxSimplifiedLeaves = 8;
 Result<> simplifyInner(const BuildContext& context, uint32_t cell);
 

@@ -22,16 +22,15 @@ class JournalTest : public testing::Test {
   Journal open(uint32_t writer = 0) {
     heads.clear();
     places.clear();
-    return Journal::open(directory.path(), writer,
-                         [this](const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place) {
-                           heads[record.id] = textOf(head);
-                           places[record.id] = place;
-                         })
+    return Journal::open(
+               directory.path(), writer,
+               [this](const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place) {
+                 heads[record.id] = textOf(head);
+                 places[record.id] = place;
+               })
         .value();
   }
-  std::filesystem::path file(int writer = 0) const {
-    return directory.path() / fmt::format("cells.{}.log", writer);
-  }
+  std::filesystem::path file(int writer = 0) const { return directory.path() / fmt::format("cells.{}.log", writer); }
 
   TempDirectory directory;
   std::map<uint64_t, std::string> heads;

@@ -1,8 +1,8 @@
 // Loaded into a program with LD_PRELOAD: makes its Nth change to the file system fail, or the process end there.
 //
-// FARCELL_FAULT_AT: which call, from 1; 0 or none: none. FARCELL_FAULT_KIND: kill (half of a write is done, then SIGKILL),
-// enospc, eio, short (a write of half: not an error, the caller must go on). FARCELL_FAULT_COUNT: a file that gets the
-// number of calls at the end of the program.
+// FARCELL_FAULT_AT: which call, from 1; 0 or none: none. FARCELL_FAULT_KIND: kill (half of a write is done, then
+// SIGKILL), enospc, eio, short (a write of half: not an error, the caller must go on). FARCELL_FAULT_COUNT: a file that
+// gets the number of calls at the end of the program.
 #include <dlfcn.h>
 #include <signal.h>
 #include <sys/stat.h>

@@ -1,4 +1,5 @@
-// A build that is killed, or whose disk fails, at every change it makes to its files; and what the same command does then.
+// A build that is killed, or whose disk fails, at every change it makes to its files; and what the same command does
+// then.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -80,8 +81,7 @@ TEST_F(InterruptedBuild, KilledAtAnyChangeOfAFileTheSameCommandGivesTheSameBytes
   ASSERT_GT(calls, 20) << "the faults are not loaded";
   for (int at = 1; at <= calls; ++at) {
     writeOldPack();
-    const Outcome killed =
-        build("wavy.obj", "x.far", fmt::format("FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT={}", at));
+    const Outcome killed = build("wavy.obj", "x.far", fmt::format("FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT={}", at));
     ASSERT_TRUE(killed.killed) << "call " << at << ": exit code " << killed.code << killed.err;
     const std::string left = bytes("x.far");
     EXPECT_TRUE(left == kOldPack || left == whole) << "call " << at << ": neither the old pack nor the new one";
@@ -121,8 +121,7 @@ TEST_F(InterruptedBuild, WritesThatDoLessThanAskedGoOn) {
   ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
   const int calls = callsOfWholeBuild();
   for (int at = 1; at <= calls; at += 3) {
-    const Outcome built =
-        build("wavy.obj", "x.far", fmt::format("FARCELL_FAULT_KIND=short FARCELL_FAULT_AT={}", at));
+    const Outcome built = build("wavy.obj", "x.far", fmt::format("FARCELL_FAULT_KIND=short FARCELL_FAULT_AT={}", at));
     ASSERT_EQ(built.code, 0) << "call " << at << built.err;
     EXPECT_TRUE(bytes("x.far") == bytes("whole.far")) << "call " << at;
   }
@@ -174,9 +173,10 @@ TEST_F(InterruptedBuild, AnotherInputOrSettingStartsAnew) {
 
 TEST_F(InterruptedBuild, TwoBuildsDoNotWorkInOneDirectory) {
   directory_.write("wavy.obj", wavyObj(40));
-  const std::string options = "--leaf-triangles 300 --samples 16 --threads 1 --image-size 256";
-  const std::string first = fmt::format("cd '{}' && '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 {} 2>first.txt >out.txt &",
-                                        directory_.path().string(), FARCELL_PROGRAMS_DIR, options);
+  const std::string options = "--leaf-triangles 300 --samples 16 --threads 1 --image-size 128";
+  const std::string first =
+      fmt::format("cd '{}' && '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 {} 2>first.txt >out.txt &",
+                  directory_.path().string(), FARCELL_PROGRAMS_DIR, options);
   ASSERT_EQ(std::system(first.c_str()), 0);
   for (int wait = 0; wait < 500 && !exists("x.far.work/identity"); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

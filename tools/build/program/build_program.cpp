@@ -35,14 +35,10 @@ struct Arguments {
   ProgressForm progress = ProgressForm::automatic;
 };
 
-void addOptions(CLI::App& app, Arguments& arguments) {
+// What the pack is to hold.
+void addContentOptions(CLI::App& app, Arguments& arguments) {
   BuildSettings& settings = arguments.options.settings;
   arguments.leafTriangles = std::to_string(settings.leafTriangles);
-  app.add_option("mesh", arguments.meshes,
-                 "mesh files, which are one model: .ply, .obj, .stl, .off, .gltf, .glb, or .json for a scene that "
-                 "places others")
-      ->required();
-  app.add_option("-o,--output", arguments.pack, "pack file to write (.far)")->required();
   app.add_option("--views", settings.views, "viewpoints per cell")
       ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
       ->capture_default_str();
@@ -67,11 +63,6 @@ void addOptions(CLI::App& app, Arguments& arguments) {
          "length of a model unit: mm, cm, m, km, in, ft or metres as a number; default: what the scene says, else m")
       ->type_name("LENGTH");
   app.add_flag("--normals", settings.bakeNormals, "views also keep a normal");
-  arguments.memory = fmt::format("{}G", kDefaultMemoryBytes >> 30);
-  app.add_option("--memory", arguments.memory,
-                 "ceiling of this process's memory, at least 192M; K, M, G are powers of 1024")
-      ->type_name("BYTES")
-      ->capture_default_str();
   app.add_option("--simplifier", arguments.simplifier,
                  "what makes the meshes of inner cells: edge collapses, or OpenMesh's decimater, which is slower")
       ->check(CLI::IsMember({"collapse", "openmesh"}))
@@ -87,6 +78,20 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--budget-rule", arguments.budgetRule,
                  "what the budget is spent on first: views most worth a byte, or cells of most triangles")
       ->check(CLI::IsMember({"worth", "triangles"}))
+      ->capture_default_str();
+}
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("mesh", arguments.meshes,
+                 "mesh files, which are one model: .ply, .obj, .stl, .off, .gltf, .glb, or .json for a scene that "
+                 "places others")
+      ->required();
+  app.add_option("-o,--output", arguments.pack, "pack file to write (.far)")->required();
+  addContentOptions(app, arguments);
+  arguments.memory = fmt::format("{}G", kDefaultMemoryBytes >> 30);
+  app.add_option("--memory", arguments.memory,
+                 "ceiling of this process's memory, at least 192M; K, M, G are powers of 1024")
+      ->type_name("BYTES")
       ->capture_default_str();
   app.add_option("--threads", arguments.options.threads, "worker threads; 0: all")
       ->check(CLI::Range(0, 1024))
@@ -142,12 +147,12 @@ BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
   summary.innerCells = directory.cells.size() - summary.leaves;
   summary.viewsKept = report.viewsKept;
   summary.viewsBaked = report.viewsBaked;
-  summary.stages = {{"read", seconds.read, {}, report.inputTriangles, "triangles", {}},
-                    {"partition", seconds.partition, {}, report.inputTriangles, "triangles", {}},
-                    {"lod", seconds.lod, result.cpuSeconds.lod, report.inputTriangles, "triangles", {}},
-                    {"bake", seconds.bake, result.cpuSeconds.bake, report.viewsBaked, "views", {}},
-                    {"encode", seconds.encode, result.cpuSeconds.encode, report.viewsKept, "views",
-                     report.impostorBytes}};
+  summary.stages = {
+      {"read", seconds.read, {}, report.inputTriangles, "triangles", {}},
+      {"partition", seconds.partition, {}, report.inputTriangles, "triangles", {}},
+      {"lod", seconds.lod, result.cpuSeconds.lod, report.inputTriangles, "triangles", {}},
+      {"bake", seconds.bake, result.cpuSeconds.bake, report.viewsBaked, "views", {}},
+      {"encode", seconds.encode, result.cpuSeconds.encode, report.viewsKept, "views", report.impostorBytes}};
   summary.seconds = seconds.total;
   summary.cpuSeconds = processCpuSeconds();
   summary.parts = {{"geometry", report.geometryBytes}, {"impostors", report.impostorBytes}};
@@ -238,7 +243,8 @@ int buildProgram(int argc, char** argv, Crew* crew) {
       "The meshes are streamed and cut into the cells of an octree; each cell keeps its triangles and small pictures "
       "of "
       "itself from many directions; inner cells keep simplified meshes. Memory stays below a ceiling whatever the size "
-      "of the model; a work directory beside the pack holds it meanwhile. A build that was interrupted or killed goes on "
+      "of the model; a work directory beside the pack holds it meanwhile. A build that was interrupted or killed goes "
+      "on "
       "where it was when the same command is given again. The pack appears under its name when it is complete, and has "
       "the same bytes with any number of threads and processes.",
       "farcell-build");
