@@ -1,6 +1,8 @@
 // The order in which a page's triangles and vertices deflate and draw best.
 #include <meshoptimizer.h>
 
+#include <algorithm>
+
 #include "cache/base/check.h"
 #include "cache/pack/connectivity.h"
 #include "cache/pack/pages.h"
@@ -18,6 +20,15 @@ std::vector<T> remapped(const std::vector<T>& values, std::span<const uint32_t> 
   return result;
 }
 
+// The optimiser's time grows with the square of the triangles at one vertex: a heap of duplicates would take minutes.
+constexpr uint32_t kMaxTrianglesAtVertex = 2048;
+
+uint32_t trianglesAtBusiestVertex(const GeometryPage& page) {
+  std::vector<uint32_t> counts(page.positions.size());
+  for (const uint32_t index : page.indices) ++counts[index];
+  return *std::max_element(counts.begin(), counts.end());
+}
+
 }  // namespace
 
 GeometryPage optimisedOrder(const GeometryPage& page) {
@@ -27,7 +38,10 @@ GeometryPage optimisedOrder(const GeometryPage& page) {
   if (page.indices.empty()) return {};
   GeometryPage result;
   result.indices.resize(page.indices.size());
-  meshopt_optimizeVertexCache(result.indices.data(), page.indices.data(), page.indices.size(), page.positions.size());
+  if (trianglesAtBusiestVertex(page) <= kMaxTrianglesAtVertex)
+    meshopt_optimizeVertexCache(result.indices.data(), page.indices.data(), page.indices.size(), page.positions.size());
+  else
+    result.indices = page.indices;
   rotateForCoding(result.indices);
   std::vector<uint32_t> remap(page.positions.size());
   const size_t used = meshopt_optimizeVertexFetchRemap(remap.data(), result.indices.data(), result.indices.size(),

@@ -107,7 +107,7 @@ class Jobs {
   }
   // Ends when all processes have done theirs, and knows what they have done.
   Result<> run(size_t count, const std::function<Result<>(size_t job, int thread)>& job) {
-    FARCELL_TRY(crew_.together(runJobs(count, threads_, job)));
+    FARCELL_TRY(crew_.together(runJobs(count, threads_, job).and_then([&] { return context_.store.sync(); })));
     return context_.store.refresh();
   }
 

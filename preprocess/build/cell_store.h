@@ -55,6 +55,7 @@ class CellStore {
   // Not empty, by rising view.
   Result<std::vector<EncodedView>> views(uint32_t cell) const;
 
+  Result<> sync() { return journal_->sync(); }
   // What other processes have added since.
   Result<> refresh() { return journal_->refresh(); }
   // All that were baked, by cell, then view. Call it when nothing is added any more.

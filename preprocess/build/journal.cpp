@@ -160,6 +160,12 @@ Result<> Journal::add(const JournalRecord& record, std::span<const std::byte> he
   return own.file.sync();
 }
 
+Result<> Journal::sync() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->synced = Clock::now();
+  return impl_->files[impl_->writer]->file.sync();
+}
+
 Result<> Journal::refresh() {
   const std::lock_guard lock(impl_->mutex);
   FARCELL_TRY(impl_->openFiles());

@@ -42,6 +42,8 @@ class Journal {
   // Once this returns the end of this process loses nothing; a loss of power may lose what was added in the last two
   // seconds. Any thread. The body of fewer than 2^32 bytes.
   Result<> add(const JournalRecord& record, std::span<const std::byte> head, std::span<const std::byte> body);
+  // What was added is on the disk, or with the server of a shared directory.
+  Result<> sync();
   // Finds what other processes have added since.
   Result<> refresh();
   // Any thread. corrupt when the body is not what was added.
