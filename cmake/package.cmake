@@ -1,4 +1,5 @@
 # What `cmake --install` and `cpack` take: the programs and what they say of themselves, never tests or benchmarks.
+# farcell-build-mpi stays in the build: a package should not depend on an MPI, and a cluster has its own.
 # Components: `farcell` for both; `plain` for an installation without a package; `debian` for the package.
 
 get_property(programs GLOBAL PROPERTY FARCELL_PROGRAMS)

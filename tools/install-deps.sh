@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs from the distribution's own packages what building and running farcell needs, and only what is missing; with
-# --tests also what the tests look through (a browser, a display, shells). Made for Debian 12; the names are those of
-# Ubuntu too, whose releases may bring other versions (Embree 3 is needed). Quick and silent when nothing is missing.
+# --tests also what the tests look through (a browser, a display, shells, MPI). Made for Debian 12; the names are those
+# of Ubuntu too, whose releases may bring other versions (Embree 3 is needed). Quick and silent when nothing is missing.
 # usage: tools/install-deps.sh [--tests]
 set -euo pipefail
 
@@ -32,6 +32,8 @@ forTests=(
   xvfb xdotool
   # readers of manual pages, shells that complete, and what looks into the Debian package
   man-db mandoc zsh fish dpkg-dev lintian
+  # the optional farcell-build-mpi, and the mpirun that its test is run by
+  libopenmpi-dev openmpi-bin
 )
 
 case ${1:-} in

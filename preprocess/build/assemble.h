@@ -11,8 +11,9 @@
 
 namespace farcell {
 
-// Writes the pages of every cell in file order, with the views whose fate is to be kept, and the directory; fills in
-// what the directory says of pages and views. The size of the pack. views: all of the store; fates: of each.
+// Writes the pages of every cell in file order, its mesh, then those of its views whose fate is to be kept, and the
+// directory; fills in what the directory says of meshes, pages and views. Returns the size of the pack in bytes.
+// views: all of the store, by cell, then view; fates: of each.
 Result<uint64_t> assemblePack(const BuildContext& context, const std::filesystem::path& pack,
                               std::span<const ViewCost> views, std::span<const ViewFate> fates, Directory& directory,
                               Progress& progress);

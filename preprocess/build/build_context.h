@@ -15,12 +15,12 @@
 
 namespace farcell {
 
-// Processor time of all threads.
+// Processor time of all threads, by kind of work.
 struct WorkClock {
   std::atomic<int64_t> meshNs{0}, bakeNs{0}, encodeNs{0};
 };
 
-// Adds the processor time of this thread until its end to a clock.
+// Adds the processor time that this thread uses while it lives to a sum.
 class Lap {
  public:
   explicit Lap(std::atomic<int64_t>& sum) : sum_(sum) {}
@@ -44,7 +44,7 @@ struct BuildContext {
   const CellTree& tree;
   const Partition& partition;
   const Viewpoints& viewpoints;
-  const std::vector<ViewMask>& seen;  // by cell, the views that a visitor may get; empty: all
+  const std::vector<ViewMask>& seen;  // by cell, the views that a visitor can get; empty: all
   bool hasTextures;
   CellStore& store;
   MemoryGate& gate;

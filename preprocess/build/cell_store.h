@@ -45,20 +45,21 @@ class CellStore {
   static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer,
                                                  const ViewLimits& limits);
 
-  // Any thread. baked: what became of each view of the batch; views: those that are not empty, by rising number.
+  // Any thread. Of a cell or batch that is there already the first stays: both are the same.
+  // baked: what became of each view of the batch that is wanted; views: those that are not empty, by rising view.
   Result<> add(uint32_t cell, const CodedMesh& mesh);
   Result<> add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views);
   bool hasMesh(uint32_t cell) const;
   bool has(const ViewBatch& batch) const;
   MeshFigures meshFigures(uint32_t cell) const;  // REQUIRES: hasMesh
   Result<CodedMesh> mesh(uint32_t cell) const;   // REQUIRES: hasMesh
-  // Not empty, by rising view.
+  // Those that are not empty, by rising view.
   Result<std::vector<EncodedView>> views(uint32_t cell) const;
 
   Result<> sync() { return journal_->sync(); }
   // What other processes have added since.
   Result<> refresh() { return journal_->refresh(); }
-  // All that were baked, by cell, then view. Call it when nothing is added any more.
+  // Of all views that were baked, by cell, then view. Call it when nothing is added any more.
   std::vector<ViewCost> viewCosts() const;
 
  private:

@@ -11,8 +11,8 @@ class Crew {
  public:
   virtual ~Crew() = default;
   virtual uint32_t size() const = 0;
-  virtual uint32_t rank() const = 0;  // 0 leads: it partitions and writes the pack
-  // Waits for all. The error of one is the error of all, so that they end together.
+  virtual uint32_t rank() const = 0;  // below size(); 0 leads: it partitions and writes the pack
+  // Waits for all. The error of the lowest rank that has one is the error of all, so that they end together.
   virtual Result<> together(Result<> own) = 0;
 };
 

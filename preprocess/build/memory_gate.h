@@ -1,4 +1,5 @@
-// Work that needs memory waits here until there is enough of it.
+// Work that needs memory waits here until there is enough of it: shares are what jobs say they will use, not measured.
+// Who holds a share asks for no other, so that nobody waits for himself.
 #pragma once
 
 #include <condition_variable>

@@ -9,13 +9,13 @@
 
 namespace farcell {
 
-// Which leaves have content inside a grown cell; and their triangles, cut to it.
+// Which leaves have content inside a grown cell, and their triangles, cut to it. Any thread.
 class SoupSource {
  public:
   SoupSource(const Model& model, const CellTree& tree, const Partition& partition)
       : model_(model), tree_(tree), partition_(partition) {}
 
-  // Cells (indices of leaves in the tree) in order of the tree.
+  // Indices of cells of the tree, rising.
   std::vector<uint32_t> leavesInside(uint32_t cell) const;
   // Appends the part of `leafCell` that lies in the grown cube of `cell`, and calls `appended` after each portion of a
   // few thousand triangles: it may use up and clear the soup.

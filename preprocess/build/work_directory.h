@@ -1,7 +1,12 @@
 // Where a build keeps what it has done so far, so that the same command goes on after a crash.
 //
-// It belongs to one pack, and to one identity: everything that decides the pack's bytes. What another identity left
-// there is removed. One build at a time works in it.
+// It belongs to one pack, and to one identity: everything that decides what partition and jobs make (source files,
+// settings but for the pack's budget, versions). What another identity left there is removed. One build at a time works
+// in it:
+//   lock, identity     of this header
+//   partition/         leaves and their index (partition.h)
+//   cells.<n>.log      the journal of process n (journal.h, cell_store.h)
+// and scratch of readers and textures.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +34,7 @@ class WorkDirectory {
   const std::filesystem::path& path() const { return path_; }
   // Whether what is there belongs to this identity; if not, it is emptied and from now on does.
   Result<bool> belongsTo(const std::string& identity) const;
-  // Anything that an interrupted build could go on from.
+  // Whether there is anything that an interrupted build could go on from.
   bool holdsWork() const;
   // Removes the directory and all in it.
   Result<> remove();
@@ -40,7 +45,7 @@ class WorkDirectory {
   int lock_ = -1;
 };
 
-// Bytes that may still be written to the file system of a directory, and those of all files in it.
+// Bytes that may still be written to the file system of a directory; and the sizes of all files in it together.
 Result<uint64_t> freeBytes(const std::filesystem::path& directory);
 uint64_t directoryBytes(const std::filesystem::path& directory);
 

@@ -58,7 +58,7 @@ struct ChooseSettings {
 
 struct LeftOutCount {
   uint64_t views = 0;
-  // That the pack would be larger by, with the pages' headers, padding and records. Of views that were not baked: if
+  // That the pack would be larger by, with the pages' headers and records. Of views that were not baked: if
   // they were as large as the cell's others, without pages.
   uint64_t bytes = 0;
 };

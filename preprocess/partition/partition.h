@@ -4,8 +4,7 @@
 // 2. spool (spool.h): a second pass puts every triangle on the grid and sorts it, through scratch, into the smallest
 //    cell of the octree's upper levels that holds it whole (bucket_file.h).
 // 3. split (split_phase.h): from the root down, triangles that a cell's planes cut become polygons of its octants,
-// until
-//    the rule below says leaf; cells that fit in memory are split there, by all threads, the others on disk.
+//    until the rule below says leaf; cells that fit in memory are split there, by all threads, the others on disk.
 // 4. seal: the leaves are made safe, and an index of them appears. From then on the partition is only read.
 //
 // A cell is split while it holds more than leafTriangles, or while its triangles are much finer than the texels of its
@@ -18,9 +17,10 @@
 //
 // The work directory, whose owner sees to it that all in it comes from one mesh and one set of settings:
 //   measure             result of step 1
-//   spool, spool-*      bucket files: of the model, and of cells too dense for its buckets; what is whole outlives a
-//   crash leaves, journal     triangles of finished leaves, and which cells are done (leaf_store.h) index the finished
-//   partition; measure, spool and journal are gone
+//   spool, spool-*      bucket files: of the model, and of cells too dense for its buckets; what is whole outlives
+//                       a crash
+//   leaves, journal     triangles of finished leaves, and which cells are done (leaf_store.h)
+//   index               the finished partition; measure, spool and journal are gone
 // and files without a name, which go with their process.
 #pragma once
 

@@ -31,6 +31,7 @@ expect Homepage ''
 for library in libc6 libstdc++6 libopenimageio libembree libepoxy0 libegl1 libgl1-mesa-dri; do
   expect Depends "*$library*"
 done
+[[ $(field Depends) != *mpi* ]] || fail "Depends: expected no MPI, found $(field Depends)"
 
 dpkg-deb -x "$package" "$top/root"
 [[ $("$top/root/usr/bin/farcell" --version) == "farcell $version" ]] || fail "another version"
