@@ -140,9 +140,13 @@ class ColourRow {
   void undoTexel(size_t x, uint8_t& colour, uint8_t alpha) {
     const uint8_t up = row_[x];
     const uint8_t prediction = predict_(left_, up, upLeft_);
+    upLeft_ = up;
+    if (alpha == 255) {
+      left_ = row_[x] = colour = static_cast<uint8_t>(colour + prediction);
+      return;
+    }
     colour = static_cast<uint8_t>(colour + multiplied(prediction, alpha));
     left_ = row_[x] = alpha != 0 ? unmultiplied(colour, alpha) : prediction;
-    upLeft_ = up;
   }
 
   // Where nothing is multiplied, a texel counts as its prediction plus its residual, which is 0 where nothing is

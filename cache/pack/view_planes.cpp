@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "cache/base/check.h"
 #include "cache/pack/bytes.h"
@@ -33,18 +33,23 @@ uint8_t fromGreen(uint8_t green, uint8_t factor) {
 // Which texels of a plane are stored: 255, else 0. Empty: all are.
 using Mask = std::span<const uint8_t>;
 
-size_t storedTexels(Mask mask, PlaneSize size) {
-  if (mask.empty()) return size.texels();
-  uint32_t count = 0;
-  for (const uint8_t m : mask) count += m & 1u;
-  return count;
-}
+// Bytes that are all written before they are read.
+class Buffer {
+ public:
+  explicit Buffer(size_t size) : size_(size), bytes_(std::make_unique_for_overwrite<uint8_t[]>(size)) {}
+  uint8_t* data() const { return bytes_.get(); }
+  std::span<uint8_t> span() const { return {bytes_.get(), size_}; }
 
-// The masks of the planes of a view. Loops write through raw pointers: a vector of bytes could alias itself.
+ private:
+  size_t size_;
+  std::unique_ptr<uint8_t[]> bytes_;
+};
+
+// The masks of the planes of a view.
 class Masks {
  public:
   // Everything is stored.
-  Masks() = default;
+  Masks() : covered_(0), nearCovered_(0) {}
   // What a sparse arrangement stores. REQUIRES: `alpha` of texels().
   Masks(std::span<const uint8_t> alpha, PlaneSize size) : covered_(size.texels()), nearCovered_(size.texels()) {
     uint8_t* const __restrict covered = covered_.data();
@@ -56,7 +61,7 @@ class Masks {
   // Alpha is stored everywhere, depth next to covered texels too: it was grown there.
   Mask of(uint32_t plane) const {
     if (plane == kAlpha) return {};
-    return plane == kDepth ? nearCovered_ : covered_;
+    return plane == kDepth ? nearCovered_.span() : covered_.span();
   }
 
  private:
@@ -74,7 +79,7 @@ class Masks {
     }
   }
 
-  Bytes covered_, nearCovered_;
+  Buffer covered_, nearCovered_;
 };
 
 // The factor of a channel in the sense of least squares.
@@ -98,11 +103,11 @@ uint8_t factorOf(std::span<const uint8_t> channel, std::span<const uint8_t> gree
 class Planes {
  public:
   Planes(uint32_t count, size_t texels) : texels_(texels), bytes_(count * texels) {}
-  std::span<uint8_t> operator[](uint32_t index) { return std::span(bytes_).subspan(index * texels_, texels_); }
+  std::span<uint8_t> operator[](uint32_t index) { return bytes_.span().subspan(index * texels_, texels_); }
 
  private:
   size_t texels_;
-  Bytes bytes_;
+  Buffer bytes_;
 };
 
 void splitColours(std::span<const uint8_t> rgba, Planes& planes) {
@@ -180,32 +185,39 @@ PlaneFilter appendFiltered(uint32_t index, std::span<const uint8_t> plane, std::
 }
 
 // Stored texels to their places, 0 elsewhere; false when there are fewer.
-bool expand(ByteReader& in, Mask mask, PlaneSize size, std::span<uint8_t> plane) {
-  const std::span<const std::byte> stored = in.take(storedTexels(mask, size));
-  if (mask.empty()) std::memcpy(plane.data(), stored.data(), stored.size());
-  if (mask.empty() || stored.empty()) return in.ok();
-  const auto* next = reinterpret_cast<const uint8_t*>(stored.data());
-  const uint8_t* const end = next + stored.size();
-  // Eight at a time: most lie inside the mask or outside.
+bool expand(ByteReader& in, Mask mask, std::span<uint8_t> plane) {
+  if (mask.empty()) {
+    const std::span<const std::byte> stored = in.take(plane.size());
+    std::memcpy(plane.data(), stored.data(), stored.size());
+    return in.ok();
+  }
+  const auto* const stored = reinterpret_cast<const uint8_t*>(in.rest().data());
+  const size_t count = in.remaining();
+  size_t used = 0;
+  // Eight at a time, as long as so many are left: most lie inside the mask or outside.
   constexpr size_t kChunk = 8;
   size_t i = 0;
-  for (; i + kChunk <= plane.size() && next + kChunk <= end; i += kChunk) {
+  for (; i + kChunk <= plane.size() && used + kChunk <= count; i += kChunk) {
     uint64_t chunk = 0;
     std::memcpy(&chunk, mask.data() + i, kChunk);
     if (chunk == 0 || chunk == ~uint64_t{0}) {
       uint64_t texels = 0;
-      std::memcpy(&texels, next, kChunk);
+      std::memcpy(&texels, stored + used, kChunk);
       texels &= chunk;
       std::memcpy(plane.data() + i, &texels, kChunk);
-      next += chunk & kChunk;
+      used += chunk & kChunk;
     } else {
       for (size_t k = i; k < i + kChunk; ++k) {
-        plane[k] = *next & mask[k];
-        next += mask[k] & 1;
+        plane[k] = stored[used] & mask[k];
+        used += mask[k] & 1;
       }
     }
   }
-  for (; i < plane.size(); ++i) plane[i] = mask[i] != 0 ? *next++ : uint8_t{0};
+  for (; i < plane.size(); ++i) {
+    if (mask[i] != 0 && used == count) return false;
+    plane[i] = mask[i] != 0 ? stored[used++] : uint8_t{0};
+  }
+  in.take(used);
   return true;
 }
 
@@ -216,7 +228,7 @@ bool readPlane(ByteReader& in, uint32_t index, PlaneFilter filter, std::span<con
     for (size_t i = 0; i < plane.size(); ++i) plane[i] = mask.empty() ? value : value & mask[i];
     return in.ok();
   }
-  if (!expand(in, mask, size, plane)) return false;
+  if (!expand(in, mask, plane)) return false;
   if (index == kGreen) {
     undoColourFilter(filter, plane, alpha, size);
     return true;
