@@ -21,7 +21,7 @@ packages=(
   # tools: command line, JSON, pictures, the ray tracer of the reference
   libcli11-dev nlohmann-json3-dev libpng-dev libopenimageio-dev libembree-dev
   # tests and benchmarks, and the coders that a benchmark compares
-  libgtest-dev libbenchmark-dev libwebp-dev liblzma-dev
+  libgtest-dev libbenchmark-dev libwebp-dev libzstd-dev liblzma-dev
   # to unpack models that come compressed
   xz-utils
 )

@@ -45,6 +45,7 @@ class ByteReader {
   bool ok() const { return ok_; }
   size_t position() const { return position_; }
   size_t remaining() const { return bytes_.size() - position_; }
+  std::span<const std::byte> rest() const { return bytes_.subspan(position_); }
 
   uint8_t u8() { return static_cast<uint8_t>(integer(1)); }
   uint16_t u16() { return static_cast<uint16_t>(integer(2)); }

@@ -65,36 +65,27 @@ uint32_t rotationOf(uint8_t code) { return code == kNoSharedEdge ? 0 : code % 3;
 
 }  // namespace
 
-ConnectivityCodes codedTriangles(std::span<const uint32_t> indices) {
+ConnectivityCodes codedTriangles(std::span<const uint32_t> indices, size_t vertexCount) {
   FARCELL_CHECK(indices.size() % 3 == 0);
   ConnectivityCodes codes;
+  codes.triangles.reserve(indices.size() / 3);
+  codes.corners.reserve(indices.size());
+  codes.parallelograms.resize(vertexCount);
   EdgeList edges;
   uint32_t next = 0;
   for (size_t first = 0; first < indices.size(); first += 3) {
     const uint8_t code = edges.find(triangleAt(indices, first));
+    const bool shared = code != kNoSharedEdge;
     const Triangle corners = rotated(triangleAt(indices, first), rotationOf(code));
     codes.triangles.push_back(code);
-    for (size_t i = code == kNoSharedEdge ? 0 : 2; i < 3; ++i) {
+    if (shared && corners[2] == next) codes.parallelograms[next] = across(edges.at(code / 3u));
+    for (size_t i = shared ? 2 : 0; i < 3; ++i) {
       codes.corners.push_back(zigzag(next - corners[i], 32));
       next = std::max(next, corners[i] + 1);
     }
-    edges.add(corners, code != kNoSharedEdge);
+    edges.add(corners, shared);
   }
   return codes;
-}
-
-Parallelograms parallelogramsOf(std::span<const uint32_t> indices, size_t vertexCount) {
-  Parallelograms result(vertexCount);
-  EdgeList edges;
-  uint32_t next = 0;
-  for (size_t first = 0; first < indices.size(); first += 3) {
-    const uint8_t code = edges.find(triangleAt(indices, first));
-    const Triangle corners = rotated(triangleAt(indices, first), rotationOf(code));
-    if (code != kNoSharedEdge && corners[2] == next) result[next] = across(edges.at(code / 3u));
-    for (const uint32_t corner : corners) next = std::max(next, corner + 1);
-    edges.add(corners, code != kNoSharedEdge);
-  }
-  return result;
 }
 
 Result<size_t> cornerCount(std::span<const std::byte> triangleCodes) {

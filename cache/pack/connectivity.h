@@ -15,14 +15,15 @@
 
 namespace farcell {
 
-struct ConnectivityCodes {
-  std::vector<uint8_t> triangles;  // one a triangle: 3 * edge + rotation, or kNoSharedEdge
-  std::vector<uint32_t> corners;   // zigzag differences
-};
-
 // Of each vertex that came into the mesh as the third corner of a triangle with a known edge: that edge, and the vertex
 // across it. Most surfaces make a parallelogram of the four.
 using Parallelograms = std::vector<Parallelogram>;
+
+struct ConnectivityCodes {
+  std::vector<uint8_t> triangles;  // one a triangle: 3 * edge + rotation, or kNoSharedEdge
+  std::vector<uint32_t> corners;   // zigzag differences
+  Parallelograms parallelograms;
+};
 
 struct DecodedTriangles {
   std::vector<uint32_t> indices;
@@ -31,9 +32,8 @@ struct DecodedTriangles {
 inline constexpr uint32_t kEdgeListSize = 16;
 inline constexpr uint8_t kNoSharedEdge = 3 * kEdgeListSize;
 
-// REQUIRES: three indices a triangle.
-ConnectivityCodes codedTriangles(std::span<const uint32_t> indices);
-Parallelograms parallelogramsOf(std::span<const uint32_t> indices, size_t vertexCount);
+// REQUIRES: three indices a triangle, below vertexCount.
+ConnectivityCodes codedTriangles(std::span<const uint32_t> indices, size_t vertexCount);
 
 // How many corners follow these codes; corrupt when a code is above kNoSharedEdge.
 Result<size_t> cornerCount(std::span<const std::byte> triangleCodes);

@@ -111,11 +111,10 @@ void checkValid(const GeometryPage& page) {
 std::vector<std::byte> encodeGeometryPage(const GeometryPage& page) {
   checkValid(page);
   ByteWriter payload;
-  const ConnectivityCodes codes = codedTriangles(page.indices);
+  const ConnectivityCodes codes = codedTriangles(page.indices, page.positions.size());
   payload.append(std::as_bytes(std::span(codes.triangles)));
   writePlanes(payload, codes.corners);
-  writeSequences(payload, componentsOf(page.positions), 3, Lanes::one,
-                 parallelogramsOf(page.indices, page.positions.size()));
+  writeSequences(payload, componentsOf(page.positions), 3, Lanes::one, codes.parallelograms);
   if (!page.colours.empty()) writeSequences(payload, page.colours, 1, Lanes::four);
   if (!page.normals.empty()) writeSequences(payload, page.normals, 1, Lanes::two);
   FARCELL_CHECK(payload.bytes.size() <= UINT32_MAX);

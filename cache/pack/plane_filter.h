@@ -22,6 +22,10 @@ struct PlaneSize {
   size_t texels() const { return width * height; }
 };
 
+// The filter from none to gradient that leaves the smallest residuals where a texel is stored and its neighbours are.
+// `weight` is 255 for texels to count, else 0.
+PlaneFilter likelyFilter(std::span<const uint8_t> plane, std::span<const uint8_t> weight, PlaneSize size);
+
 // The residuals of the stored texels, in order. `filter` is none to gradient.
 std::vector<uint8_t> residuals(PlaneFilter filter, std::span<const uint8_t> plane, std::span<const uint8_t> mask,
                                PlaneSize size);
@@ -29,7 +33,7 @@ std::vector<uint8_t> residuals(PlaneFilter filter, std::span<const uint8_t> plan
 std::vector<uint8_t> colourResiduals(PlaneFilter filter, std::span<const uint8_t> colour,
                                      std::span<const uint8_t> alpha, std::span<const uint8_t> mask, PlaneSize size);
 
-// Residuals, 0 where nothing is stored, to texels; texels that are not stored keep their prediction.
+// Residuals, 0 where nothing is stored, to texels; texels that are not stored keep their prediction, of colours 0.
 void undoFilter(PlaneFilter filter, std::span<uint8_t> plane, PlaneSize size);
 void undoColourFilter(PlaneFilter filter, std::span<uint8_t> colour, std::span<const uint8_t> alpha, PlaneSize size);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "cache/base/check.h"
 #include "cache/pack/bytes.h"
@@ -26,90 +26,142 @@ PlaneFilter filterOf(ViewCoding coding, uint32_t plane) {
 Arrangement arrangementOf(ViewCoding coding) { return static_cast<Arrangement>(coding >> kArrangementShift); }
 
 // What red or blue is expected to be.
-uint8_t fromGreen(uint8_t green, uint32_t factor) {
-  return static_cast<uint8_t>((factor * green + (1u << (kUnitFactorBits - 1))) >> kUnitFactorBits);
+uint8_t fromGreen(uint8_t green, uint8_t factor) {
+  return static_cast<uint8_t>(static_cast<uint16_t>(factor * green + (1 << (kUnitFactorBits - 1))) >> kUnitFactorBits);
 }
 
-// Which texels of the planes are stored: 255, else 0.
+// Which texels of a plane are stored: 255, else 0. Empty: all are.
+using Mask = std::span<const uint8_t>;
+
+// Bytes that are all written before they are read.
+class Buffer {
+ public:
+  explicit Buffer(size_t size) : size_(size), bytes_(std::make_unique_for_overwrite<uint8_t[]>(size)) {}
+  uint8_t* data() const { return bytes_.get(); }
+  std::span<uint8_t> span() const { return {bytes_.get(), size_}; }
+
+ private:
+  size_t size_;
+  std::unique_ptr<uint8_t[]> bytes_;
+};
+
+// The masks of the planes of a view.
 class Masks {
  public:
-  // REQUIRES for sparse: `alpha` of texels().
-  Masks(Arrangement arrangement, std::span<const uint8_t> alpha, PlaneSize size) : all_(size.texels(), 255) {
-    if (arrangement == Arrangement::plain) return;
-    covered_.resize(size.texels());
-    for (size_t i = 0; i < covered_.size(); ++i) covered_[i] = alpha[i] != 0 ? 255 : 0;
+  // Everything is stored.
+  Masks() : covered_(0), nearCovered_(0) {}
+  // What a sparse arrangement stores. REQUIRES: `alpha` of texels().
+  Masks(std::span<const uint8_t> alpha, PlaneSize size) : covered_(size.texels()), nearCovered_(size.texels()) {
+    uint8_t* const __restrict covered = covered_.data();
+    const uint8_t* const __restrict from = alpha.data();
+    for (size_t i = 0; i < size.texels(); ++i) covered[i] = from[i] != 0 ? 255 : 0;
     setNearCovered(size);
   }
 
   // Alpha is stored everywhere, depth next to covered texels too: it was grown there.
-  std::span<const uint8_t> of(uint32_t plane) const {
-    if (covered_.empty() || plane == kAlpha) return all_;
-    return plane == kDepth ? nearCovered_ : covered_;
+  Mask of(uint32_t plane) const {
+    if (plane == kAlpha) return {};
+    return plane == kDepth ? nearCovered_.span() : covered_.span();
   }
 
  private:
   void setNearCovered(PlaneSize size) {
-    nearCovered_.resize(size.texels());
-    Bytes rows(size.width + 2);  // of three rows together, with an empty texel at both ends
+    const size_t width = size.width;
+    Bytes rows(width + 2);  // of three rows together, with an empty texel at both ends
+    uint8_t* const __restrict sum = rows.data();
     for (size_t y = 0; y < size.height; ++y) {
-      std::fill(rows.begin(), rows.end(), uint8_t{0});
-      for (size_t from = y > 0 ? y - 1 : 0; from < std::min(y + 2, size.height); ++from)
-        for (size_t x = 0; x < size.width; ++x) rows[x + 1] |= covered_[from * size.width + x];
-      for (size_t x = 0; x < size.width; ++x) nearCovered_[y * size.width + x] = rows[x] | rows[x + 1] | rows[x + 2];
+      const uint8_t* const __restrict row = covered_.data() + y * width;
+      const uint8_t* const __restrict below = y > 0 ? row - width : row;
+      const uint8_t* const __restrict above = y + 1 < size.height ? row + width : row;
+      uint8_t* const __restrict near = nearCovered_.data() + y * width;
+      for (size_t x = 0; x < width; ++x) sum[x + 1] = row[x] | below[x] | above[x];
+      for (size_t x = 0; x < width; ++x) near[x] = sum[x] | sum[x + 1] | sum[x + 2];
     }
   }
 
-  Bytes all_, covered_, nearCovered_;
+  Buffer covered_, nearCovered_;
 };
 
 // The factor of a channel in the sense of least squares.
-uint8_t factorOf(const ViewImage& view, size_t channel) {
+uint8_t factorOf(std::span<const uint8_t> channel, std::span<const uint8_t> green, PlaneSize size) {
   uint64_t product = 0;
   uint64_t square = 0;
-  for (size_t i = 0; i < view.rgba.size(); i += 4) {
-    product += uint32_t{view.rgba[i + channel]} * view.rgba[i + 1];
-    square += uint32_t{view.rgba[i + 1]} * view.rgba[i + 1];
+  for (size_t at = 0; at < size.texels(); at += size.width) {
+    uint32_t rowProduct = 0, rowSquare = 0;  // a row has less than 65536 texels
+    for (size_t i = at; i < at + size.width; ++i) {
+      rowProduct += static_cast<uint32_t>(channel[i] * green[i]);
+      rowSquare += static_cast<uint32_t>(green[i] * green[i]);
+    }
+    product += rowProduct;
+    square += rowSquare;
   }
   if (square == 0) return 1u << kUnitFactorBits;
   return static_cast<uint8_t>(std::min<uint64_t>(255, ((product << kUnitFactorBits) + square / 2) / square));
 }
 
-// Plane `index` of the view, before filtering.
-Bytes extractedPlane(const ViewImage& view, uint32_t index, std::array<uint8_t, 2> factors) {
-  Bytes plane(view.depth.size());
-  const uint8_t* rgba = view.rgba.data();
-  for (size_t i = 0; i < plane.size(); ++i, rgba += 4) {
-    switch (index) {
-      case kAlpha:
-        plane[i] = rgba[3];
-        break;
-      case kGreen:
-        plane[i] = rgba[1];
-        break;
-      case kRed:
-        plane[i] = static_cast<uint8_t>(rgba[0] - fromGreen(rgba[1], factors[0]));
-        break;
-      case kBlue:
-        plane[i] = static_cast<uint8_t>(rgba[2] - fromGreen(rgba[1], factors[1]));
-        break;
-      case kDepth:
-        plane[i] = view.depth[i];
-        break;
-      default:
-        plane[i] = view.normal[2 * i + (index - kNormalX)];
-    }
+// The planes one after the other in one block.
+class Planes {
+ public:
+  Planes(uint32_t count, size_t texels) : texels_(texels), bytes_(count * texels) {}
+  std::span<uint8_t> operator[](uint32_t index) { return bytes_.span().subspan(index * texels_, texels_); }
+
+ private:
+  size_t texels_;
+  Buffer bytes_;
+};
+
+void splitColours(std::span<const uint8_t> rgba, Planes& planes) {
+  uint8_t* const __restrict red = planes[kRed].data();
+  uint8_t* const __restrict green = planes[kGreen].data();
+  uint8_t* const __restrict blue = planes[kBlue].data();
+  uint8_t* const __restrict alpha = planes[kAlpha].data();
+  const uint8_t* const __restrict from = rgba.data();
+  for (size_t i = 0; i < rgba.size() / 4; ++i) {
+    red[i] = from[4 * i];
+    green[i] = from[4 * i + 1];
+    blue[i] = from[4 * i + 2];
+    alpha[i] = from[4 * i + 3];
   }
-  return plane;
 }
 
-bool zeroOutside(std::span<const uint8_t> plane, std::span<const uint8_t> mask) {
+void subtractGreen(std::span<uint8_t> plane, std::span<const uint8_t> green, uint8_t factor) {
+  uint8_t* const __restrict to = plane.data();
+  const uint8_t* const __restrict from = green.data();
+  for (size_t i = 0; i < plane.size(); ++i) to[i] = static_cast<uint8_t>(to[i] - fromGreen(from[i], factor));
+}
+
+void addGreen(std::span<uint8_t> plane, std::span<const uint8_t> green, uint8_t factor) {
+  uint8_t* const __restrict to = plane.data();
+  const uint8_t* const __restrict from = green.data();
+  for (size_t i = 0; i < plane.size(); ++i) to[i] = static_cast<uint8_t>(to[i] + fromGreen(from[i], factor));
+}
+
+struct ExtractedView {
+  Planes planes;  // before filtering
+  std::array<uint8_t, 2> factors;
+};
+
+ExtractedView extracted(const ViewImage& view, uint32_t planeCount, PlaneSize size) {
+  ExtractedView result{Planes(planeCount, size.texels()), {}};
+  Planes& planes = result.planes;
+  splitColours(view.rgba, planes);
+  result.factors = {factorOf(planes[kRed], planes[kGreen], size), factorOf(planes[kBlue], planes[kGreen], size)};
+  subtractGreen(planes[kRed], planes[kGreen], result.factors[0]);
+  subtractGreen(planes[kBlue], planes[kGreen], result.factors[1]);
+  std::copy(view.depth.begin(), view.depth.end(), planes[kDepth].begin());
+  for (uint32_t k = 0; kNormalX + k < planeCount; ++k)
+    for (size_t i = 0; i < size.texels(); ++i) planes[kNormalX + k][i] = view.normal[2 * i + k];
+  return result;
+}
+
+bool zeroOutside(std::span<const uint8_t> plane, Mask mask) {
   uint8_t outside = 0;
   for (size_t i = 0; i < plane.size(); ++i) outside |= static_cast<uint8_t>(plane[i] & ~mask[i]);
   return outside == 0;
 }
 
 // The value of all stored texels into `value`; true when there is one. Of none it is 0.
-bool isConstant(std::span<const uint8_t> plane, std::span<const uint8_t> mask, uint8_t& value) {
+bool isConstant(std::span<const uint8_t> plane, Mask mask, uint8_t& value) {
   const auto first = std::find(mask.begin(), mask.end(), 255);
   value = first == mask.end() ? uint8_t{0} : plane[static_cast<size_t>(first - mask.begin())];
   uint8_t different = 0;
@@ -117,86 +169,81 @@ bool isConstant(std::span<const uint8_t> plane, std::span<const uint8_t> mask, u
   return different == 0;
 }
 
-// Small residuals deflate well: the sum of their magnitudes ranks filters, as PNG encoders do.
-uint64_t residualCost(std::span<const uint8_t> values) {
-  uint64_t sum = 0;
-  for (const uint8_t value : values) sum += static_cast<uint32_t>(std::abs(static_cast<int8_t>(value)));
-  return sum;
-}
-
-// Appends the cheapest residuals and returns their filter; on a tie the first.
-PlaneFilter appendFiltered(uint32_t index, std::span<const uint8_t> plane, std::span<const uint8_t> alpha,
-                           std::span<const uint8_t> mask, PlaneSize size, ByteWriter& out) {
-  Bytes best;
-  PlaneFilter bestFilter = PlaneFilter::none;
-  uint64_t bestCost = UINT64_MAX;
-  for (uint32_t i = 0; i <= static_cast<uint32_t>(PlaneFilter::gradient); ++i) {
-    const auto filter = static_cast<PlaneFilter>(i);
-    Bytes candidate =
-        index == kGreen ? colourResiduals(filter, plane, alpha, mask, size) : residuals(filter, plane, mask, size);
-    const uint64_t cost = residualCost(candidate);
-    if (cost >= bestCost) continue;
-    bestCost = cost;
-    bestFilter = filter;
-    best = std::move(candidate);
+// Appends the residuals of the filter that is likely the best, which it returns.
+PlaneFilter appendFiltered(uint32_t index, std::span<const uint8_t> plane, std::span<const uint8_t> alpha, Mask mask,
+                           PlaneSize size, ByteWriter& out) {
+  Bytes whole;  // where a colour is what is predicted
+  if (index == kGreen) {
+    whole.resize(alpha.size());
+    for (size_t i = 0; i < whole.size(); ++i) whole[i] = alpha[i] == 255 ? 255 : 0;
   }
-  out.append(std::as_bytes(std::span(best)));
-  return bestFilter;
+  const PlaneFilter filter = likelyFilter(plane, index == kGreen ? Mask(whole) : mask, size);
+  const Bytes values =
+      index == kGreen ? colourResiduals(filter, plane, alpha, mask, size) : residuals(filter, plane, mask, size);
+  out.append(std::as_bytes(std::span(values)));
+  return filter;
 }
 
 // Stored texels to their places, 0 elsewhere; false when there are fewer.
-bool expand(ByteReader& in, std::span<const uint8_t> mask, std::span<uint8_t> plane) {
-  size_t count = 0;
-  for (const uint8_t m : mask) count += m & 1;
-  const std::span<const std::byte> stored = in.take(count);
-  if (stored.size() != count) return false;
-  const std::byte* next = stored.data();
-  const auto expandTexel = [&](size_t i) { plane[i] = mask[i] != 0 ? std::to_integer<uint8_t>(*next++) : uint8_t{0}; };
-  // Eight at a time: most lie inside the mask or outside.
+bool expand(ByteReader& in, Mask mask, std::span<uint8_t> plane) {
+  if (mask.empty()) {
+    const std::span<const std::byte> stored = in.take(plane.size());
+    std::memcpy(plane.data(), stored.data(), stored.size());
+    return in.ok();
+  }
+  const auto* const stored = reinterpret_cast<const uint8_t*>(in.rest().data());
+  const size_t count = in.remaining();
+  size_t used = 0;
+  // Eight at a time, as long as so many are left: most lie inside the mask or outside.
   constexpr size_t kChunk = 8;
   size_t i = 0;
-  for (; i + kChunk <= plane.size(); i += kChunk) {
+  for (; i + kChunk <= plane.size() && used + kChunk <= count; i += kChunk) {
     uint64_t chunk = 0;
     std::memcpy(&chunk, mask.data() + i, kChunk);
-    if (chunk == 0) {
-      std::memset(plane.data() + i, 0, kChunk);
-    } else if (chunk == ~uint64_t{0}) {
-      std::memcpy(plane.data() + i, next, kChunk);
-      next += kChunk;
+    if (chunk == 0 || chunk == ~uint64_t{0}) {
+      uint64_t texels = 0;
+      std::memcpy(&texels, stored + used, kChunk);
+      texels &= chunk;
+      std::memcpy(plane.data() + i, &texels, kChunk);
+      used += chunk & kChunk;
     } else {
-      for (size_t k = 0; k < kChunk; ++k) expandTexel(i + k);
+      for (size_t k = i; k < i + kChunk; ++k) {
+        plane[k] = stored[used] & mask[k];
+        used += mask[k] & 1;
+      }
     }
   }
-  for (; i < plane.size(); ++i) expandTexel(i);
+  for (; i < plane.size(); ++i) {
+    if (mask[i] != 0 && used == count) return false;
+    plane[i] = mask[i] != 0 ? stored[used++] : uint8_t{0};
+  }
+  in.take(used);
   return true;
 }
 
-bool readPlane(ByteReader& in, uint32_t index, PlaneFilter filter, std::span<const uint8_t> alpha,
-               std::span<const uint8_t> mask, PlaneSize size, std::span<uint8_t> plane) {
+bool readPlane(ByteReader& in, uint32_t index, PlaneFilter filter, std::span<const uint8_t> alpha, Mask mask,
+               PlaneSize size, std::span<uint8_t> plane) {
   if (filter == PlaneFilter::constant) {
     const uint8_t value = in.u8();
-    for (size_t i = 0; i < plane.size(); ++i) plane[i] = value & mask[i];
+    for (size_t i = 0; i < plane.size(); ++i) plane[i] = mask.empty() ? value : value & mask[i];
     return in.ok();
   }
   if (!expand(in, mask, plane)) return false;
-  if (index == kGreen)
+  if (index == kGreen) {
     undoColourFilter(filter, plane, alpha, size);
-  else
-    undoFilter(filter, plane, size);
+    return true;
+  }
+  undoFilter(filter, plane, size);
   if (filter != PlaneFilter::none)
-    for (size_t i = 0; i < plane.size(); ++i) plane[i] &= mask[i];
+    for (size_t i = 0; i < mask.size(); ++i) plane[i] &= mask[i];
   return true;
 }
 
-void addGreen(std::span<uint8_t> plane, std::span<const uint8_t> green, uint32_t factor) {
-  for (size_t i = 0; i < plane.size(); ++i) plane[i] = static_cast<uint8_t>(plane[i] + fromGreen(green[i], factor));
-}
-
-void interleave(const std::array<const uint8_t*, 4>& channels, std::span<uint8_t> rgba) {
-  const uint8_t* const __restrict red = channels[0];
-  const uint8_t* const __restrict green = channels[1];
-  const uint8_t* const __restrict blue = channels[2];
-  const uint8_t* const __restrict alpha = channels[3];
+void joinColours(Planes& planes, std::span<uint8_t> rgba) {
+  const uint8_t* const __restrict red = planes[kRed].data();
+  const uint8_t* const __restrict green = planes[kGreen].data();
+  const uint8_t* const __restrict blue = planes[kBlue].data();
+  const uint8_t* const __restrict alpha = planes[kAlpha].data();
   uint8_t* const __restrict out = rgba.data();
   for (size_t i = 0; i < rgba.size() / 4; ++i) {
     out[4 * i] = red[i];
@@ -219,24 +266,26 @@ bool codingValid(ViewCoding coding, uint32_t planeCount) {
   return true;
 }
 
-ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted) {
-  const PlaneSize size{view.width, view.height};
-  FARCELL_CHECK_EQ(view.rgba.size(), 4 * size.texels());
-  FARCELL_CHECK_EQ(view.depth.size(), size.texels());
-  FARCELL_CHECK_EQ(view.normal.size(), planeCount == kPlanesWithNormals ? 2 * size.texels() : 0);
-  const std::array<uint8_t, 2> factors{factorOf(view, 0), factorOf(view, 2)};
-  std::vector<Bytes> planes;
-  for (uint32_t i = 0; i < planeCount; ++i) planes.push_back(extractedPlane(view, i, factors));
-  const Masks masks(wanted, planes[kAlpha], size);
+ArrangedView arrangedFromView(const ViewImage& image, uint32_t planeCount, Arrangement wanted) {
+  const PlaneSize size{image.width, image.height};
+  FARCELL_CHECK_EQ(image.rgba.size(), 4 * size.texels());
+  FARCELL_CHECK_EQ(image.depth.size(), size.texels());
+  FARCELL_CHECK_EQ(image.normal.size(), planeCount == kPlanesWithNormals ? 2 * size.texels() : 0);
+  ExtractedView view = extracted(image, planeCount, size);
+  Planes& planes = view.planes;
+  const bool sparse = wanted == Arrangement::sparse;
+  const Masks masks = sparse ? Masks(planes[kAlpha], size) : Masks();
+  const Bytes all(size.texels(), 255);
   ByteWriter out;
-  for (const uint8_t factor : factors) out.u8(factor);
+  out.bytes.reserve(arrangedBytesLimit(planeCount, size.texels()));
+  for (const uint8_t factor : view.factors) out.u8(factor);
   ViewCoding coding = static_cast<uint32_t>(wanted) << kArrangementShift;
   for (uint32_t i = 0; i < planeCount; ++i) {
-    const std::span<const uint8_t> mask = masks.of(i);
-    if (!zeroOutside(planes[i], mask)) return arrangedFromView(view, planeCount, Arrangement::plain);
+    const Mask mask = masks.of(i).empty() ? Mask(all) : masks.of(i);
+    if (!zeroOutside(planes[i], mask)) return arrangedFromView(image, planeCount, Arrangement::plain);
     PlaneFilter filter = PlaneFilter::constant;
     uint8_t value = 0;
-    if (wanted == Arrangement::sparse && isConstant(planes[i], mask, value))
+    if (sparse && isConstant(planes[i], mask, value))
       out.u8(value);
     else
       filter = appendFiltered(i, planes[i], planes[kAlpha], mask, size, out);
@@ -250,29 +299,25 @@ Result<> viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount,
   const size_t texels = size.texels();
   ByteReader in(bytes);
   const std::array<uint8_t, 2> factors{in.u8(), in.u8()};
-  Bytes planes(planeCount * texels);
-  const auto plane = [&](uint32_t i) { return std::span(planes).subspan(i * texels, texels); };
+  Planes planes(planeCount, texels);
   const auto read = [&](uint32_t i, const Masks& masks) {
-    return readPlane(in, i, filterOf(coding, i), plane(kAlpha), masks.of(i), size, plane(i));
+    return readPlane(in, i, filterOf(coding, i), planes[kAlpha], masks.of(i), size, planes[i]);
   };
-  bool whole = read(kAlpha, Masks(Arrangement::plain, {}, size));
-  const Masks masks(arrangementOf(coding), plane(kAlpha), size);
+  bool whole = read(kAlpha, Masks());
+  const Masks masks = arrangementOf(coding) == Arrangement::sparse ? Masks(planes[kAlpha], size) : Masks();
   for (uint32_t i = kGreen; i < planeCount; ++i) whole = whole && read(i, masks);
   if (!whole || in.remaining() != 0)
     return fail(ErrorKind::corrupt, "expected the planes of {} x {} texels, found {} bytes", size.width, size.height,
                 bytes.size());
 
-  addGreen(plane(kRed), plane(kGreen), factors[0]);
-  addGreen(plane(kBlue), plane(kGreen), factors[1]);
+  addGreen(planes[kRed], planes[kGreen], factors[0]);
+  addGreen(planes[kBlue], planes[kGreen], factors[1]);
   view.rgba.resize(4 * texels);
-  interleave({plane(kRed).data(), plane(kGreen).data(), plane(kBlue).data(), plane(kAlpha).data()}, view.rgba);
-  view.depth.assign(plane(kDepth).begin(), plane(kDepth).end());
+  joinColours(planes, view.rgba);
+  view.depth.assign(planes[kDepth].begin(), planes[kDepth].end());
   view.normal.resize((planeCount - kPlanesWithoutNormals) * texels);
-  const uint8_t* normal = planes.data() + kNormalX * texels;
-  for (size_t i = 0; 2 * i < view.normal.size(); ++i) {
-    view.normal[2 * i] = normal[i];
-    view.normal[2 * i + 1] = normal[texels + i];
-  }
+  for (uint32_t k = 0; kNormalX + k < planeCount; ++k)
+    for (size_t i = 0; i < texels; ++i) view.normal[2 * i + k] = planes[kNormalX + k][i];
   return {};
 }
 

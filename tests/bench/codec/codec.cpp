@@ -1,11 +1,18 @@
-// What the page codecs cost and buy on the pages of a real pack: every page is decoded and encoded again, one thread.
-// usage: bench_codec <pack>    CSV on stdout; raw MB/s of CPU time; units are texels or triangles.
+// What the page codecs cost and buy on the pages of a real pack, all in memory, one thread, CPU time: every page is
+// encoded and decoded again; triangles also go the way of a build, from a list to bytes; and of every so-many-th view
+// the bytes are coded by other coders.
+// usage: bench_codec <pack> [<views between two for other coders, 0: none>]    CSV on stdout; MB/s are raw; units are
+// texels or triangles.
 #include <time.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
+#include "cache/pack/encoded_view.h"
 #include "cache/pack/pack_file.h"
+#include "preprocess/encode/geometry_page.h"
+#include "tests/bench/codec/coders.h"
 
 namespace farcell {
 namespace {
@@ -48,42 +55,112 @@ bool measure(const Page& page, const Encode& encode, const Decode& decode, Total
   return decoded == page;
 }
 
-Result<bool> measureGeometry(const PackFile& pack, uint32_t index, Totals& totals) {
+// The steps from a list of triangles to a page's bytes.
+struct MeshTotals {
+  uint64_t triangles = 0;
+  double weldSeconds = 0;
+  double orderSeconds = 0;
+  double encodeSeconds = 0;
+};
+
+std::vector<GridTriangle> trianglesOf(const GeometryPage& page) {
+  std::vector<GridTriangle> triangles(page.indices.size() / 3);
+  for (size_t i = 0; i < page.indices.size(); ++i) {
+    GridTriangle& triangle = triangles[i / 3];
+    const uint32_t vertex = page.indices[i];
+    triangle.corners[i % 3] = GridPoint(page.positions[vertex]);
+    triangle.colours[i % 3] = page.colours.empty() ? 0 : page.colours[vertex];
+    triangle.normals[i % 3] = page.normals.empty() ? 0 : page.normals[vertex];
+  }
+  return triangles;
+}
+
+void measureMesh(const GeometryPage& page, MeshTotals& totals) {
+  const std::vector<GridTriangle> triangles = trianglesOf(page);
+  Model model;
+  model.hasColours = !page.colours.empty();
+  model.hasNormals = !page.normals.empty();
+  const double start = threadSeconds();
+  const GeometryPage welded = geometryPage(triangles, GridPoint(0), model);
+  const double weldedAt = threadSeconds();
+  const GeometryPage ordered = optimisedOrder(welded);
+  const double orderedAt = threadSeconds();
+  const std::vector<std::byte> bytes = encodeGeometryPage(ordered);
+  totals.encodeSeconds += threadSeconds() - orderedAt;
+  totals.orderSeconds += orderedAt - weldedAt;
+  totals.weldSeconds += weldedAt - start;
+  totals.triangles += triangles.size();
+}
+
+Result<bool> measureGeometry(const PackFile& pack, uint32_t index, Totals& totals, MeshTotals& mesh) {
   FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(index));
+  measureMesh(page, mesh);
   const GeometryLimits limits{1u << kMaxGridBits, decodedSizeBytes(page)};
   return measure(
       page, encodeGeometryPage, [&](const auto& bytes) { return decodeGeometryPage(bytes, limits); }, totals);
 }
 
-Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals) {
+// Views in order, of which every so-many-th goes to the other coders.
+struct Sampled {
+  uint64_t every = 0;
+  uint64_t met = 0;
+  std::vector<CoderTotals> totals = otherCoders();
+};
+
+Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals, Sampled& sampled) {
   FARCELL_ASSIGN(const ViewPage page, pack.readViews(index));
   const BuildSettings& settings = pack.directory().model.settings;
   const ViewLimits limits{static_cast<uint32_t>(settings.views), static_cast<uint32_t>(settings.imageSize),
                           decodedSizeBytes(page)};
+  for (const ViewImage& view : page.views)
+    if (view.width > 0 && sampled.every > 0 && sampled.met++ % sampled.every == 0) addView(view, sampled.totals);
   return measure(
       page, encodeViewPage, [&](const auto& bytes) { return decodeViewPage(bytes, limits); }, totals);
 }
 
 void print(const char* kind, const Totals& totals) {
   const auto raw = static_cast<double>(totals.rawBytes), stored = static_cast<double>(totals.storedBytes);
-  std::printf("%s,%llu,%llu,%llu,%llu,%.3f,%.4f,%.0f,%.0f\n", kind, static_cast<unsigned long long>(totals.pages),
+  std::printf("%s,%llu,%llu,%llu,%llu,%.4f,%.4f,%.0f,%.0f\n", kind, static_cast<unsigned long long>(totals.pages),
               static_cast<unsigned long long>(totals.units), static_cast<unsigned long long>(totals.rawBytes),
               static_cast<unsigned long long>(totals.storedBytes), stored / raw,
               stored / static_cast<double>(totals.units), raw / 1e6 / totals.encodeSeconds,
               raw / 1e6 / totals.decodeSeconds);
 }
 
-Result<> run(const char* path) {
+void print(const MeshTotals& totals) {
+  const double millions = static_cast<double>(totals.triangles) / 1e6;
+  std::puts("\nstep,millionTrianglesPerSecond");
+  std::printf("weld,%.2f\norder,%.2f\nencode,%.2f\nall,%.2f\n", millions / totals.weldSeconds,
+              millions / totals.orderSeconds, millions / totals.encodeSeconds,
+              millions / (totals.weldSeconds + totals.orderSeconds + totals.encodeSeconds));
+}
+
+void print(const std::vector<CoderTotals>& coders) {
+  std::puts("\ncoder,level,input,ratio,ofOurs,encodeMBps,decodeMBps");
+  for (const CoderTotals& coder : coders) {
+    const auto raw = static_cast<double>(coder.rawBytes), stored = static_cast<double>(coder.storedBytes);
+    std::printf("%s,%d,%s,%.4f,%.4f,%.0f,%.0f\n", coder.name, coder.level, coder.input, stored / raw,
+                stored / static_cast<double>(coders.front().storedBytes), raw / 1e6 / coder.encodeSeconds,
+                raw / 1e6 / coder.decodeSeconds);
+  }
+}
+
+Result<> run(const char* path, uint64_t every) {
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(path));
   Totals geometry, views;
+  MeshTotals mesh;
+  Sampled sampled{.every = every};
   for (uint32_t i = 0; i < pack.directory().pages.size(); ++i) {
     const bool isGeometry = pack.directory().pages[i].kind == PageKind::geometry;
-    FARCELL_ASSIGN(const bool same, isGeometry ? measureGeometry(pack, i, geometry) : measureViews(pack, i, views));
+    FARCELL_ASSIGN(const bool same,
+                   isGeometry ? measureGeometry(pack, i, geometry, mesh) : measureViews(pack, i, views, sampled));
     if (!same) return fail(ErrorKind::corrupt, "{}: page {} does not survive its codec", path, i);
   }
   std::puts("kind,pages,units,rawBytes,storedBytes,ratio,bytesPerUnit,encodeMBps,decodeMBps");
   if (geometry.pages > 0) print("geometry", geometry);
   if (views.pages > 0) print("views", views);
+  if (geometry.pages > 0) print(mesh);
+  if (sampled.met > 0) print(sampled.totals);
   return {};
 }
 
@@ -91,11 +168,11 @@ Result<> run(const char* path) {
 }  // namespace farcell
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: bench_codec <pack>\n");
+  if (argc < 2 || argc > 3) {
+    std::fprintf(stderr, "usage: bench_codec <pack> [<views between two for other coders>]\n");
     return 2;
   }
-  const auto result = farcell::run(argv[1]);
+  const auto result = farcell::run(argv[1], argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 0);
   if (!result) std::fprintf(stderr, "bench_codec: %s\n", result.error().message.c_str());
   return result ? 0 : 1;
 }
