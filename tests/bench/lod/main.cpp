@@ -172,8 +172,21 @@ class Run {
   std::map<CellKey, Made> made_;
 };
 
+class Scratch {
+ public:
+  Scratch() : name_((std::filesystem::temp_directory_path() / "bench_lod.XXXXXX").string()) { ::mkdtemp(name_.data()); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { std::filesystem::remove_all(name_); }
+  const std::string& path() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
 int run(const Options& options) {
-  const Result<Tree> tree = treeOf(options.model, options.leafTriangles, std::filesystem::temp_directory_path());
+  const Scratch scratch;
+  const Result<Tree> tree = treeOf(options.model, options.leafTriangles, scratch.path());
   if (!tree) {
     fmt::print(stderr, "bench_lod: {}\n", tree.error().message);
     return 1;

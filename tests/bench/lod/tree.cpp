@@ -4,13 +4,18 @@
 #include "preprocess/read/open_mesh.h"
 
 namespace farcell::bench {
+namespace {
+
+constexpr uint64_t kPartitionMemoryBytes = uint64_t{1} << 30;
+
+}  // namespace
 
 Result<Tree> treeOf(const std::filesystem::path& model, int leafTriangles, const std::filesystem::path& scratch) {
   FARCELL_ASSIGN(const auto reader, openMesh(model));
   BuildSettings settings;
   settings.leafTriangles = leafTriangles;
   Progress silent(false);
-  FARCELL_ASSIGN(Partition partition, partitionMesh(*reader, settings, scratch, 2, silent));
+  FARCELL_ASSIGN(Partition partition, partitionMesh(*reader, settings, {scratch, 2, kPartitionMemoryBytes}, silent));
   Tree tree{std::move(partition), {}, {}};
   for (size_t i = 0; i < tree.partition.leaves.size(); ++i) tree.leaves[tree.partition.leaves[i].key] = i;
   std::vector<CellKey> below;

@@ -17,6 +17,7 @@ struct Tree {
   std::map<CellKey, std::vector<CellKey>> children;  // of the inner cells, by level, then by octant
 };
 
+// scratch: an empty directory that must outlive the tree.
 Result<Tree> treeOf(const std::filesystem::path& model, int leafTriangles, const std::filesystem::path& scratch);
 Result<LodMesh> leafMesh(const Tree& tree, const CellKey& leaf);
 // The leaves below a cell, itself included.

@@ -13,6 +13,7 @@
 
 #include "preprocess/lod/simplify_cell.h"
 #include "preprocess/partition/partition.h"
+#include "tests/support/temporary_directory.h"
 
 namespace farcell::test {
 
@@ -121,7 +122,9 @@ inline LodMesh leafMesh(std::span<const GridTriangle> triangles) {
 inline Levels leavesOf(std::vector<InputTriangle> triangles, const BuildSettings& settings) {
   TriangleSource source(std::move(triangles));
   Progress silent(false);
-  const Partition partition = partitionMesh(source, settings, testing::TempDir(), 1, silent).value();
+  const TemporaryDirectory directory;
+  const PartitionOptions options{directory.path(), 1, kMinPartitionMemoryBytes};
+  const Partition partition = partitionMesh(source, settings, options, silent).value();
   Levels levels;
   levels.grid = partition.grid;
   for (const Leaf& leaf : partition.leaves) {
