@@ -44,7 +44,7 @@ std::string amountUsed(const BudgetUse& budget) {
 }
 
 // Names are words of ours; what JSON would have escaped is left out.
-std::string quoted(std::string_view name) {
+std::string jsonQuoted(std::string_view name) {
   std::string text = "\"";
   for (const char c : name)
     if (c != '"' && c != '\\' && static_cast<unsigned char>(c) >= ' ') text += c;
@@ -56,7 +56,7 @@ std::string budgetsJson(std::span<const BudgetUse> budgets) {
   std::string text = "[";
   for (const BudgetUse& budget : budgets) {
     if (text.size() > 1) text += ',';
-    text += fmt::format("{{\"name\":{},\"used\":{}", quoted(budget.name), budget.used);
+    text += fmt::format("{{\"name\":{},\"used\":{}", jsonQuoted(budget.name), budget.used);
     if (budget.limit > 0) text += fmt::format(",\"limit\":{}", budget.limit);
     text += '}';
   }
@@ -106,8 +106,8 @@ std::string progressLine(const StageProgress& stage, std::span<const BudgetUse> 
 std::string progressJson(std::string_view event, const StageProgress& stage, std::span<const BudgetUse> budgets) {
   std::string text =
       fmt::format("{{\"event\":{},\"stage\":{},\"unit\":{},\"done\":{},\"total\":{},\"seconds\":{:.3f},\"rate\":{:.1f}",
-                  quoted(event), quoted(stage.stage), quoted(stage.unit), stage.done, stage.total, stage.seconds,
-                  stage.unitsPerSecond());
+                  jsonQuoted(event), jsonQuoted(stage.stage), jsonQuoted(stage.unit), stage.done, stage.total,
+                  stage.seconds, stage.unitsPerSecond());
   if (const std::optional<double> left = stage.secondsLeft(); left && event == "advance")
     text += fmt::format(",\"secondsLeft\":{:.1f}", *left);
   text += fmt::format(",\"budgets\":{}}}", budgetsJson(budgets));

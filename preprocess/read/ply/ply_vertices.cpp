@@ -7,7 +7,7 @@ namespace farcell {
 namespace {
 
 template <class Source>
-tl::unexpected<Error> badRow(const Source& source, const PlyElement& element, uint64_t row) {
+tl::unexpected<Error> badVertexRow(const Source& source, const PlyElement& element, uint64_t row) {
   return tl::unexpected<Error>(source.error(fmt::format("row {} of {} of element 'vertex'", row, element.count)));
 }
 
@@ -28,7 +28,7 @@ Result<Vertices> appendRows(Source& source, const PlyElement& element, const Ply
   Vertices vertices(memory, row.shape());
   PlyVertexRow::Values values{};
   for (uint64_t i = 0; i < element.count; ++i) {
-    if (!readRow(source, element, row, values)) return badRow(source, element, i);
+    if (!readRow(source, element, row, values)) return badVertexRow(source, element, i);
     FARCELL_TRY(vertices.append(row.vertex(values)));
   }
   return vertices;
@@ -75,7 +75,7 @@ Result<Vertices> readPlyVertices(Source& source, const std::shared_ptr<const Inp
       const VertexShape shape = row.shape();
       RowLoader<Source::kSwap> loader(file, source.place().offset, std::move(row));
       // readPlyHeader has checked that the product fits the file.
-      if (!source.skip(PlyType::uint8, element.count * element.rowBytes())) return badRow(source, element, 0);
+      if (!source.skip(PlyType::uint8, element.count * element.rowBytes())) return badVertexRow(source, element, 0);
       return Vertices::loaded(memory, shape, element.count, std::move(loader));
     }
   }

@@ -4,6 +4,5 @@ if(TARGET tools_build_test)
   if(TARGET farcell-build-mpi)
     add_dependencies(tools_build_test farcell-build-mpi)
   endif()
-  target_compile_definitions(tools_build_test PRIVATE FARCELL_IO_FAULTS="$<TARGET_FILE:farcell_io_faults>"
-                             $<$<BOOL:${FARCELL_SANITIZE}>:FARCELL_SANITIZED>)
+  target_compile_definitions(tools_build_test PRIVATE FARCELL_IO_FAULTS="$<TARGET_FILE:farcell_io_faults>")
 endif()
