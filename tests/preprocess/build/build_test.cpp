@@ -1,6 +1,7 @@
 #include "preprocess/build/build.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -98,6 +99,23 @@ TEST_F(BuildPack, OneThreadAndFourGiveTheSameBytes) {
   options.threads = 4;
   ASSERT_TRUE(build(mesh, "four.far", options));
   EXPECT_TRUE(bytesOf("one.far") == bytesOf("four.far"));
+}
+
+TEST_F(BuildPack, EveryInstructionSetAndMemoryGivesTheSameBytes) {
+  const auto mesh = write("sphere.obj", sphereObj(30, 3, glm::dvec3(1e6, -2e6, 5)));
+  BuildOptions options = smallLeaves();
+  options.settings.samples = 4;
+  options.threads = 2;
+  ASSERT_TRUE(build(mesh, "best.far", options));
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    EXPECT_TRUE(build(mesh, "target.far", options));
+    hwy::SetSupportedTargetsForTest(0);
+    EXPECT_TRUE(bytesOf("target.far") == bytesOf("best.far")) << hwy::TargetName(target);
+  }
+  options.memoryBytes = kMinMemoryBytes;
+  ASSERT_TRUE(build(mesh, "little.far", options));
+  EXPECT_TRUE(bytesOf("little.far") == bytesOf("best.far"));
 }
 
 TEST_F(BuildPack, LeafTrianglesTileTheSphere) {
