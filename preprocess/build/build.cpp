@@ -188,7 +188,8 @@ class Build {
     textures_.reset();
     const bool goesOn = !built && (built.error().kind == ErrorKind::cancelled || built.error().kind == ErrorKind::io ||
                                    built.error().kind == ErrorKind::exhausted);
-    if (goesOn && workDirectory_->holdsWork()) return {};
+    // An input that is not there today may be there tomorrow: what was done before is not this attempt's to remove.
+    if ((goesOn || !identified_) && workDirectory_->holdsWork()) return {};
     return workDirectory_->remove();
   }
 
@@ -213,6 +214,7 @@ class Build {
     if (!leads()) return {};
     FARCELL_ASSIGN(const std::string identity, identityOf(*reader_, settings_));
     FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identity));
+    identified_ = true;
     FARCELL_ASSIGN(result_.directory.sourceHash, sourceHash(*reader_));
     return result_.resumed ? Result<>() : preflight();
   }
@@ -395,6 +397,7 @@ class Build {
   BuildSettings settings_;
   std::filesystem::path workPath_;
   std::optional<WorkDirectory> workDirectory_;  // the leader's
+  bool identified_ = false;                     // what is there belongs to this build
   std::unique_ptr<MeshReader> reader_;          // until the partition is done
   std::optional<Textures> textures_;
   std::optional<Partition> partition_;

@@ -42,15 +42,22 @@ Json settingsJson(const BuildSettings& settings) {
           {"leafTriangles", settings.leafTriangles},
           {"maxLevel", settings.maxLevel},
           {"fixedLevel", settings.fixedLevel},
-          {"bakeNormals", settings.bakeNormals}};
+          {"bakeNormals", settings.bakeNormals},
+          {"simplifier", settings.simplifier == Simplifier::openmesh ? "openmesh" : "collapse"},
+          {"packBudgetBytes", settings.packBudgetBytes},
+          {"budgetRule", settings.budgetRule == BudgetRule::triangles ? "triangles" : "worth"},
+          {"visitableHash", fmt::format("{:016x}", settings.visitableHash)}};
 }
 
-// One entry a level: its leaves, its inner cells, and the triangles of its leaves.
+// One entry a level: its leaves, its inner cells, the triangles of its leaves, those of its inner cells' meshes and the
+// largest geometric error of these.
 Json levelsJson(const Directory& directory) {
   struct Level {
     uint64_t leaf = 0;
     uint64_t inner = 0;
     uint64_t triangles = 0;
+    uint64_t meshTriangles = 0;
+    double geometricError = 0;
   };
   std::vector<Level> levels;
   for (const CellRecord& cell : directory.cells) {
@@ -58,12 +65,17 @@ Json levelsJson(const Directory& directory) {
     Level& level = levels[cell.key.level];
     const bool leaf = cell.childCount == 0;
     (leaf ? level.leaf : level.inner) += 1;
-    if (leaf) level.triangles += cell.triangles;
+    (leaf ? level.triangles : level.meshTriangles) += cell.meshTriangles;
+    level.geometricError = std::max(level.geometricError, cell.geometricError);
   }
   Json json = Json::array();
   for (size_t i = 0; i < levels.size(); ++i)
-    json.push_back(
-        {{"level", i}, {"leaf", levels[i].leaf}, {"inner", levels[i].inner}, {"triangles", levels[i].triangles}});
+    json.push_back({{"level", i},
+                    {"leaf", levels[i].leaf},
+                    {"inner", levels[i].inner},
+                    {"triangles", levels[i].triangles},
+                    {"meshTriangles", levels[i].meshTriangles},
+                    {"geometricErrorMetres", levels[i].geometricError * directory.model.settings.metresPerUnit}});
   return json;
 }
 

@@ -11,7 +11,8 @@
 namespace farcell {
 
 // The shared report (tools/report) and: format{version}, model{source, sourceHash, grid, bounds, up, metresPerUnit,
-// hasColours, hasNormals}, settings{...}, levels[{level, leaf, inner, triangles}], pages{geometry, views}.
+// hasColours, hasNormals}, settings{...}, levels[{level, leaf, inner, triangles, meshTriangles, geometricErrorMetres}],
+// pages{geometry, views}.
 // Bounds are in model units, world axes; null when the pack holds no triangle.
 nlohmann::ordered_json packInfoJson(const PackFile& pack);
 

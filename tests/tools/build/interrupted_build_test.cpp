@@ -173,6 +173,20 @@ TEST_F(FaultyBuild, AnotherInputOrSettingStartsAnew) {
   EXPECT_TRUE(bytes("x.far") == bytes("fresh.far"));
 }
 
+TEST_F(FaultyBuild, AnInputThatIsAwayForAWhileLosesNothing) {
+  const auto mesh = directory_.write("wavy.obj", wavyObj(9)), away = directory_.path() / "away.obj";
+  ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
+  ASSERT_TRUE(build("wavy.obj", "x.far", "FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT=40").killed);
+  std::filesystem::rename(mesh, away);
+  const Outcome gone = build("wavy.obj", "x.far");
+  EXPECT_EQ(gone.code, 1);
+  EXPECT_NE(gone.err.find("wavy.obj"), std::string::npos) << gone.err;
+  ASSERT_TRUE(exists("x.far.work/identity"));
+  std::filesystem::rename(away, mesh);
+  ASSERT_EQ(build("wavy.obj", "x.far").code, 0);
+  EXPECT_TRUE(bytes("x.far") == bytes("whole.far"));
+}
+
 TEST_F(InterruptedBuild, TwoBuildsDoNotWorkInOneDirectory) {
   directory_.write("wavy.obj", wavyObj(40));
   const std::string options = "--leaf-triangles 300 --samples 16 --threads 1 --image-size 128";
