@@ -30,6 +30,11 @@ class ByteWriter {
     append(std::as_bytes(std::span(text)));
   }
   void append(std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
+  // As many bytes more, to be filled before anything else is written.
+  std::span<std::byte> space(size_t count) {
+    bytes.resize(bytes.size() + count);
+    return std::span(bytes).last(count);
+  }
 
  private:
   void integer(uint64_t value, int count) {

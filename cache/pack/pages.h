@@ -41,7 +41,7 @@ struct ViewPage {
   bool operator==(const ViewPage&) const = default;
 };
 
-// The same triangles in the order that takes the fewest bytes and draws fastest: each triangle keeps its three vertices
+// The same triangles in an order of strips, which takes few bytes and draws fast: each triangle keeps its three vertices
 // and its winding but may start at another corner; vertices no triangle uses are dropped. Deterministic. Coding itself
 // keeps the order it is given: call this first. REQUIRES: indices in range, three a triangle.
 GeometryPage optimisedOrder(const GeometryPage& page);

@@ -59,8 +59,11 @@ class LastSeen {
 }  // namespace
 
 void writePlanes(ByteWriter& out, std::span<const uint32_t> words) {
-  for (uint32_t shift = 0; shift < 32; shift += 8)
-    for (const uint32_t word : words) out.u8(static_cast<uint8_t>(word >> shift));
+  const std::span<std::byte> planes = out.space(4 * words.size());
+  for (uint32_t plane = 0; plane < 4; ++plane) {
+    std::byte* const to = planes.data() + plane * words.size();
+    for (size_t i = 0; i < words.size(); ++i) to[i] = static_cast<std::byte>(words[i] >> (8 * plane));
+  }
 }
 
 std::vector<uint32_t> readPlanes(ByteReader& in, size_t count) {
@@ -76,13 +79,15 @@ void writeSequences(ByteWriter& out, std::span<const uint32_t> words, size_t seq
                     std::span<const Parallelogram> parallelograms) {
   FARCELL_CHECK(words.size() % sequences == 0);
   const size_t length = words.size() / sequences;
+  const std::span<std::byte> distances = out.space(words.size());
   std::vector<uint32_t> differences;
+  differences.reserve(words.size());
   for (size_t sequence = 0; sequence < sequences; ++sequence) {
     const std::span<const uint32_t> part = words.subspan(sequence * length, length);
     LastSeen seen;
     for (size_t i = 0; i < length; ++i) {
       const uint8_t distance = seen.distance(part, i);
-      out.u8(distance);
+      distances[sequence * length + i] = std::byte{distance};
       if (distance == 0) differences.push_back(codedDifference(part[i], expectedWord(part, i, parallelograms), lanes));
     }
   }

@@ -12,7 +12,7 @@ struct Vertex {
   bool operator==(const Vertex&) const = default;
 };
 
-// Vertices by their value, numbered as they come: an open table of at most half its slots.
+// Vertices by their value, numbered as they come: an open table of 2^n slots, at most half of them used.
 class VertexNumbers {
  public:
   explicit VertexNumbers(size_t expected) : slots_(std::bit_ceil(2 * expected + 2), kFree) {
@@ -21,7 +21,7 @@ class VertexNumbers {
 
   uint32_t numberOf(const Vertex& vertex) {
     size_t slot = firstSlot(vertex);
-    while (slots_[slot] != kFree && vertices_[slots_[slot]] != vertex) slot = (slot + 1) % slots_.size();
+    while (slots_[slot] != kFree && vertices_[slots_[slot]] != vertex) slot = (slot + 1) & (slots_.size() - 1);
     if (slots_[slot] != kFree) return slots_[slot];
     const auto number = static_cast<uint32_t>(vertices_.size());
     slots_[slot] = number;
@@ -40,14 +40,14 @@ class VertexNumbers {
     uint64_t hash = 0;
     for (const uint32_t word : {vertex.position.x, vertex.position.y, vertex.position.z, vertex.colour, vertex.normal})
       hash = std::rotl((hash ^ word) * kOdd, 29);
-    return (hash * kOdd >> 32) % slots_.size();
+    return (hash * kOdd >> 32) & (slots_.size() - 1);
   }
 
   void grow() {
     slots_.assign(2 * slots_.size(), kFree);
     for (uint32_t number = 0; number < vertices_.size(); ++number) {
       size_t slot = firstSlot(vertices_[number]);
-      while (slots_[slot] != kFree) slot = (slot + 1) % slots_.size();
+      while (slots_[slot] != kFree) slot = (slot + 1) & (slots_.size() - 1);
       slots_[slot] = number;
     }
   }

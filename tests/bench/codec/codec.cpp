@@ -58,6 +58,7 @@ bool measure(const Page& page, const Encode& encode, const Decode& decode, Total
 // The steps from a list of triangles to a page's bytes.
 struct MeshTotals {
   uint64_t triangles = 0;
+  uint64_t bytes = 0;
   double weldSeconds = 0;
   double orderSeconds = 0;
   double encodeSeconds = 0;
@@ -90,6 +91,7 @@ void measureMesh(const GeometryPage& page, MeshTotals& totals) {
   totals.orderSeconds += orderedAt - weldedAt;
   totals.weldSeconds += weldedAt - start;
   totals.triangles += triangles.size();
+  totals.bytes += bytes.size();
 }
 
 Result<bool> measureGeometry(const PackFile& pack, uint32_t index, Totals& totals, MeshTotals& mesh) {
@@ -129,7 +131,8 @@ void print(const char* kind, const Totals& totals) {
 
 void print(const MeshTotals& totals) {
   const double millions = static_cast<double>(totals.triangles) / 1e6;
-  std::puts("\nstep,millionTrianglesPerSecond");
+  std::printf("\nfrom a list of triangles: %.4f bytes a triangle\nstep,millionTrianglesPerSecond\n",
+              static_cast<double>(totals.bytes) / static_cast<double>(totals.triangles));
   std::printf("weld,%.2f\norder,%.2f\nencode,%.2f\nall,%.2f\n", millions / totals.weldSeconds,
               millions / totals.orderSeconds, millions / totals.encodeSeconds,
               millions / (totals.weldSeconds + totals.orderSeconds + totals.encodeSeconds));
