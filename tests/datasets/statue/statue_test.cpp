@@ -22,7 +22,7 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-constexpr uint64_t kManyTriangles = kSanitized ? 30'000 : 200'000;
+constexpr uint64_t kManyTriangles = kSanitized ? 30'000 : 60'000;
 
 BaseMesh meshOf(const std::vector<Corners>& triangles, double scale = 1, glm::dvec3 offset = glm::dvec3(0)) {
   BaseMeshBuilder builder;
@@ -165,8 +165,8 @@ TEST_F(StatueTest, IsTheSameForTheSameSettingsAtAnyThreadCount) {
 }
 
 TEST_F(StatueTest, TheFigureIsClosedWhateverItsFace) {
-  for (const uint64_t seed : {1, 2, 3, 4, 5, 6}) {
-    if (kSanitized && seed > 2) break;
+  for (const uint64_t seed : {1, 2, 3}) {
+    if (kSanitized && seed > 1) break;
     for (const uint64_t triangles : {kMinStatueTriangles, uint64_t{30'000}}) {
       SCOPED_TRACE(fmt::format("seed {} triangles {}", seed, triangles));
       StatueSettings settings = sized(triangles);
