@@ -37,7 +37,7 @@ namespace farcell {
 
 // A leaf of fewer triangles than this share of leafTriangles is never split for fineness alone.
 inline constexpr int kFinenessShare = 2;
-inline constexpr double kTrianglesPerTexel = 2;
+inline constexpr double kTrianglesPerTexel = 16;
 inline constexpr double kMaxGrowth = 2;
 
 inline constexpr uint64_t kMinPartitionMemoryBytes = uint64_t{48} << 20;
