@@ -18,6 +18,10 @@ constexpr double kLengthWeight = 1e-6;
 constexpr double kLeastTurn = 0.17;
 // A pass takes edges of up to this many times the cost at which it would just reach its target.
 constexpr float kPassSlack = 1.5f;
+// But it takes at least one in so many of what has to go, and of all triangles: else the last few would need many
+// passes.
+constexpr size_t kLeastShareOfGoal = 8;
+constexpr size_t kLeastShareOfAll = 64;
 
 glm::dvec3 crossOf(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { return glm::cross(b - a, c - a); }
 
@@ -176,10 +180,11 @@ size_t Collapser::collapseCheapest(size_t target) {
   const size_t edgeGoal = goal / 2;
   const float limit = edgeGoal < order_.size() ? candidates_[order_[edgeGoal]].cost * kPassSlack
                                                : std::numeric_limits<float>::infinity();
+  const size_t least = std::max(goal / kLeastShareOfGoal, triangles_.size() / kLeastShareOfAll);
   size_t removed = 0;
   for (const uint32_t index : order_) {
     const Candidate& candidate = candidates_[index];
-    if (removed >= goal || (candidate.cost > limit && removed > goal / 8)) break;
+    if (removed >= goal || (candidate.cost > limit && removed > least)) break;
     if (touched_[candidate.from] || touched_[candidate.to]) continue;
     size_t removes = 0;
     if (!allowed(candidate.from, candidate.to, removes)) continue;

@@ -21,17 +21,44 @@ constexpr int kFineDivisions = 8;
 // nearer by the first triangle tried.
 constexpr size_t kFirstStride = 61;
 
+// A triangle prepared to bound distances from it.
+class Facet {
+ public:
+  Facet(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) : a_(a), ab_(b - a), ac_(c - a), perB_(0), perC_(0) {
+    const glm::dvec3 normal = glm::cross(ab_, ac_);
+    const double square = glm::dot(normal, normal);
+    if (!(square > 0)) return;
+    perB_ = glm::cross(ac_, normal) / square;
+    perC_ = glm::cross(normal, ab_) / square;
+  }
+  // The squared distance of a point of the triangle: the nearest one where it lies above or below.
+  double squareBound(glm::dvec3 point) const {
+    const glm::dvec3 apart = point - a_;
+    double b = std::max(0.0, glm::dot(apart, perB_)), c = std::max(0.0, glm::dot(apart, perC_));
+    if (const double sum = b + c; sum > 1) b /= sum, c /= sum;
+    const glm::dvec3 left = apart - ab_ * b - ac_ * c;
+    return glm::dot(left, left);
+  }
+
+ private:
+  glm::dvec3 a_, ab_, ac_;
+  glm::dvec3 perB_, perC_;  // by how much the shares of b and c grow along a vector
+};
+
 class OneSided {
  public:
   OneSided(const Surface& from, const Surface& to, std::span<const uint32_t> nearby)
       : from_(from), to_(to), nearby_(nearby), seen_(from.places.size()) {
     rings_.build(to.triangles, to.places.size());
+    facets_.reserve(to.triangles.size());
+    for (const Triangle& t : to.triangles)
+      facets_.emplace_back(glm::dvec3(to.places[t[0]]), glm::dvec3(to.places[t[1]]), glm::dvec3(to.places[t[2]]));
   }
 
   double greatest() {
-    for (size_t t = 0; t < from_.triangles.size(); t += kFirstStride) sampleTriangle(t);
+    for (size_t t = 0; t < from_.triangles.size(); t += kFirstStride) lookAt(t);
     for (size_t t = 0; t < from_.triangles.size(); ++t)
-      if (t % kFirstStride != 0) sampleTriangle(t);
+      if (t % kFirstStride != 0) lookAt(t);
     refine();
     return std::sqrt(greatest_);
   }
@@ -43,6 +70,20 @@ class OneSided {
   };
 
   glm::dvec3 at(uint32_t place) const { return glm::dvec3(from_.places[place]); }
+
+  void lookAt(size_t index) {
+    const Triangle& t = from_.triangles[index];
+    const uint32_t a = nearby_[t[0]], b = nearby_[t[1]], c = nearby_[t[2]];
+    for (const RingEdge& edge : rings_.of(a)) {
+      if (edge.next != b || edge.previous != c) continue;
+      last_ = edge.triangle;
+      if (to_.places[a] == from_.places[t[0]] && to_.places[b] == from_.places[t[1]] &&
+          to_.places[c] == from_.places[t[2]])
+        return;  // both have it
+      break;
+    }
+    sampleTriangle(index);
+  }
 
   void sampleTriangle(size_t index) {
     const Triangle& t = from_.triangles[index];
@@ -56,27 +97,28 @@ class OneSided {
 
   void sample(glm::dvec3 point, size_t index, size_t corner) {
     const double enough = kCandidateShare * greatest_;
-    double known = std::numeric_limits<double>::infinity();
-    const Triangle& triangle = from_.triangles[index];
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t near = nearby_[triangle[(corner + k) % 3]];
-      const std::span<const RingEdge> ring = rings_.of(near);
-      if (ring.empty()) continue;
-      const glm::dvec3 apart = point - glm::dvec3(to_.places[near]);
-      known = std::min(known, glm::dot(apart, apart));
-      for (size_t i = 0; i < ring.size() && known > enough; ++i) known = std::min(known, heightAbove(point, ring[i]));
-      if (known <= enough) return;
-    }
+    const double known = boundNearby(point, index, corner, enough);
+    if (known <= enough) return;
     const double exact = tree().squareDistance(point, known, enough);
     if (exact <= enough) return;
     candidates_.push_back({exact, index});
     greatest_ = std::max(greatest_, exact);
   }
 
-  double heightAbove(glm::dvec3 point, const RingEdge& edge) const {
-    const Triangle& t = to_.triangles[edge.triangle];
-    return squareHeightAbove(point, glm::dvec3(to_.places[t[0]]), glm::dvec3(to_.places[t[1]]),
-                             glm::dvec3(to_.places[t[2]]));
+  // From the triangle that was near the last sample, and from those about the places that are likely near.
+  double boundNearby(glm::dvec3 point, size_t index, size_t corner, double enough) {
+    double known = facets_.empty() ? std::numeric_limits<double>::infinity() : facets_[last_].squareBound(point);
+    const Triangle& triangle = from_.triangles[index];
+    for (size_t k = 0; k < 3 && known > enough; ++k) {
+      for (const RingEdge& edge : rings_.of(nearby_[triangle[(corner + k) % 3]])) {
+        const double bound = facets_[edge.triangle].squareBound(point);
+        if (bound >= known) continue;
+        known = bound;
+        last_ = edge.triangle;
+        if (known <= enough) break;
+      }
+    }
+    return known;
   }
 
   // Between the samples of the triangles that are farthest.
@@ -109,6 +151,8 @@ class OneSided {
   const std::span<const uint32_t> nearby_;
   std::vector<bool> seen_;
   Rings rings_;
+  std::vector<Facet> facets_;
+  size_t last_ = 0;
   std::optional<TriangleTree> tree_;
   std::vector<Candidate> candidates_;
   double greatest_ = 0;

@@ -25,8 +25,7 @@ uint64_t codeOf(std::span<const GridPoint> places, const Triangle& t) {
   return mortonCode(CellKey{0, sum.x / 32, sum.y / 32, sum.z / 32});
 }
 
-}  // namespace
-
+// Infinity where the point is beside the triangle.
 double squareHeightAbove(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
   const glm::dvec3 normal = glm::cross(ab, ac);
@@ -36,6 +35,8 @@ double squareHeightAbove(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c)
   const double height = glm::dot(ap, normal);
   return height * height / area;
 }
+
+}  // namespace
 
 double squareDistance(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const double height = squareHeightAbove(p, a, b, c);

@@ -10,9 +10,6 @@
 
 namespace farcell::lod {
 
-// The squared height of a point above or below a triangle; infinity where it is beside it.
-double squareHeightAbove(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
-
 // Ericson, Real-Time Collision Detection, 2005, section 5.1.5. Squared; exact up to rounding for slivers too.
 double squareDistance(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
 
