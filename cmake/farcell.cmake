@@ -17,6 +17,10 @@ target_link_libraries(farcell_settings INTERFACE Threads::Threads)
 if(FARCELL_WERROR AND NOT FARCELL_SANITIZE)
   target_compile_options(farcell_settings INTERFACE -Werror)
 endif()
+# Anonymous namespaces of files that another includes are taken for those of headers.
+if(FARCELL_UNITY)
+  target_compile_options(farcell_settings INTERFACE -Wno-subobject-linkage)
+endif()
 if(FARCELL_SANITIZE)
   add_compile_options(-fsanitize=${FARCELL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${FARCELL_SANITIZE})
@@ -25,8 +29,7 @@ if(FARCELL_SANITIZE)
     "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 
-# With FARCELL_UNITY (the sanitizers' presets, whose builds would take most of CI's time) the files of a target are
-# compiled a few at a time as one. So no two files of a directory should have a name in common, in anonymous namespaces
+# With FARCELL_UNITY (CI, most of whose time builds would take) the files of a target are compiled a few at a time as one. So no two files of a directory should have a name in common, in anonymous namespaces
 # too; those that do are named after APART and compiled alone, as are Highway's files, which include themselves.
 function(farcell_unity target directory)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FARCELL_UNITY})

@@ -68,7 +68,7 @@ BuildOptions smallLeaves() {
   BuildOptions options;
   options.settings.leafTriangles = 600;
   options.settings.imageSize = 64;
-  options.settings.samples = 16;
+  options.settings.samples = 4;
   return options;
 }
 
@@ -104,7 +104,6 @@ TEST_F(BuildPack, OneThreadAndFourGiveTheSameBytes) {
 TEST_F(BuildPack, EveryInstructionSetAndMemoryGivesTheSameBytes) {
   const auto mesh = write("sphere.obj", sphereObj(30, 3, glm::dvec3(1e6, -2e6, 5)));
   BuildOptions options = smallLeaves();
-  options.settings.samples = 4;
   options.threads = 2;
   ASSERT_TRUE(build(mesh, "best.far", options));
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -120,7 +119,10 @@ TEST_F(BuildPack, EveryInstructionSetAndMemoryGivesTheSameBytes) {
 
 TEST_F(BuildPack, LeafTrianglesTileTheSphere) {
   const auto mesh = write("sphere.obj", sphereObj(60, 1, glm::dvec3(0)));
-  ASSERT_TRUE(build(mesh, "sphere.far", smallLeaves()));
+  BuildOptions options = smallLeaves();
+  options.settings.imageSize = 16;
+  options.settings.samples = 1;
+  ASSERT_TRUE(build(mesh, "sphere.far", options));
   const PackFile pack = PackFile::open(directory_ / "sphere.far").value();
   const Directory& directory = pack.directory();
   double area = 0;
@@ -140,7 +142,9 @@ TEST_F(BuildPack, LeafTrianglesTileTheSphere) {
 // Every view of the root sees a disc: area and prefiltered edge come out of coverage.
 TEST_F(BuildPack, RootViewsOfASphereCoverADiscFromEveryDirection) {
   const auto mesh = write("sphere.obj", sphereObj(60, 1, glm::dvec3(0)));
-  ASSERT_TRUE(build(mesh, "sphere.far", smallLeaves()));
+  BuildOptions options = smallLeaves();
+  options.settings.samples = 16;
+  ASSERT_TRUE(build(mesh, "sphere.far", options));
   const PackFile pack = PackFile::open(directory_ / "sphere.far").value();
   const Directory& directory = pack.directory();
   const CellRecord& root = directory.cells[0];

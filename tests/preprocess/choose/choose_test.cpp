@@ -52,11 +52,9 @@ Scene randomScene(unsigned seed) {
   return scene;
 }
 
-uint64_t padded(uint64_t bytes) { return (bytes + 4095) / 4096 * 4096; }
-
 // The size of a pack with these views, by FORMAT.md, with a directory of short names.
 uint64_t packBytes(const Scene& scene, const std::vector<ViewFate>& fates) {
-  uint64_t bytes = 4096 + 80 + 104 + 300 + 92 * scene.cells.size();
+  uint64_t bytes = 32 + 80 + 104 + 300 + 92 * scene.cells.size();
   std::map<std::pair<uint32_t, int>, uint64_t> pages;
   for (size_t i = 0; i < fates.size(); ++i) {
     if (fates[i] != ViewFate::kept) continue;
@@ -65,8 +63,8 @@ uint64_t packBytes(const Scene& scene, const std::vector<ViewFate>& fates) {
         pages.try_emplace({view.cell, scene.viewpoints.group(static_cast<int>(view.view))}, 8).first->second;
     page += 32 + view.bytes;
   }
-  for (const auto& [place, page] : pages) bytes += padded(page) + 40;
-  for (const uint32_t geometry : scene.geometryBytes) bytes += geometry > 0 ? padded(geometry) + 40 : 0;
+  for (const auto& [place, page] : pages) bytes += page + 40;
+  for (const uint32_t geometry : scene.geometryBytes) bytes += geometry > 0 ? geometry + 40 : 0;
   return bytes;
 }
 
