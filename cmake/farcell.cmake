@@ -29,10 +29,11 @@ if(FARCELL_SANITIZE)
     "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 
-# With FARCELL_UNITY (CI, most of whose time builds would take) the files of a target are compiled a few at a time as one. So no two files of a directory should have a name in common, in anonymous namespaces
-# too; those that do are named after APART and compiled alone, as are Highway's files, which include themselves.
+# With FARCELL_UNITY (CI, most of whose time builds would take) the files of a target are compiled a few at a time as
+# one. So no two files of a directory should have a name in common, in anonymous namespaces too; those that do are named
+# after APART and compiled alone, as are Highway's files, which include themselves.
 function(farcell_unity target directory)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FARCELL_UNITY})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD "${FARCELL_UNITY}")
   list(TRANSFORM ARGN PREPEND ${CMAKE_SOURCE_DIR}/${directory}/ OUTPUT_VARIABLE apart)
   set_source_files_properties(${apart} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
