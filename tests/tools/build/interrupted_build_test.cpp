@@ -199,7 +199,7 @@ TEST_F(InterruptedBuild, TwoBuildsDoNotWorkInOneDirectory) {
   const Outcome second = build("wavy.obj", "x.far", "", options);
   EXPECT_EQ(second.code, 1);
   EXPECT_NE(second.err.find("no other"), std::string::npos) << second.err;
-  for (int wait = 0; wait < 3000 && exists("x.far.work"); ++wait)
+  for (int wait = 0; wait < 12000 && exists("x.far.work"); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(exists("x.far")) << bytes("first.txt");
 }
