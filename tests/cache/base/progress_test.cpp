@@ -105,10 +105,12 @@ TEST(Progress, JsonIsALineForEachEventAndDoneComesLast) {
   });
   std::istringstream lines(output.err);
   std::vector<std::string> heads;
-  for (std::string line; std::getline(lines, line); heads.push_back(line.substr(0, 31))) EXPECT_EQ(line.back(), '}');
+  for (std::string line; std::getline(lines, line);
+       heads.push_back(line.substr(0, line.find_first_of("0123456789")).substr(0, 31)))
+    EXPECT_EQ(line.back(), '}');
   EXPECT_EQ(heads, (std::vector<std::string>{R"({"event":"begin","stage":"read")", R"({"event":"end","stage":"read",")",
                                              R"({"event":"begin","stage":"bake")", R"({"event":"end","stage":"bake",")",
-                                             R"({"event":"done","seconds":0.000)"}));
+                                             R"({"event":"done","seconds":)"}));
   EXPECT_EQ(asked, 4u);
   EXPECT_NE(output.err.find(R"("budgets":[{"name":"memory","used":4,"limit":1000}])"), std::string::npos) << output.err;
   EXPECT_EQ(output.out, "");

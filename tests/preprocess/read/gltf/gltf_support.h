@@ -6,6 +6,7 @@
 
 #include "tests/preprocess/read/read_support.h"
 #include "tests/support/gltf_writer.h"
+#include "tests/support/sanitized.h"
 
 namespace farcell::test {
 
@@ -19,7 +20,7 @@ inline ReadMesh readGlb(const GltfWriter& writer) {
 // Of the random tests; more where the variable says so.
 inline int fuzzRounds() {
   const char* text = std::getenv("FARCELL_FUZZ_ROUNDS");
-  return text ? std::atoi(text) : 1500;
+  return text ? std::atoi(text) : kSanitized ? 300 : 1500;
 }
 
 using Corners = std::array<glm::dvec3, 3>;
