@@ -82,10 +82,10 @@ std::vector<std::byte> planesCoded(const CellImage& image) {
   view.width = static_cast<uint32_t>(image.width);
   view.height = static_cast<uint32_t>(image.height);
   view.rgba = image.rgba;
-  view.depth.resize(image.rgba.size() / 4);  // a view has one; it is not among the planes asked for
+  view.depth.resize(image.rgba.size() / 4);  // a view has one; all zero, it takes next to nothing
   std::vector<std::byte> best;
-  for (const Arrangement arrangement : {Arrangement::texels, Arrangement::planes}) {
-    const ArrangedView arranged = arrangedFromView(view, kColourPlanes, arrangement);
+  for (const Arrangement arrangement : {Arrangement::plain, Arrangement::sparse}) {
+    const ArrangedView arranged = arrangedFromView(view, kPlanesWithoutNormals, arrangement);
     std::vector<std::byte> coded = zlibCompress(arranged.bytes, kPackZlibLevel);
     if (best.empty() || coded.size() < best.size()) best = std::move(coded);
   }
