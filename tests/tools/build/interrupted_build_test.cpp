@@ -176,7 +176,7 @@ TEST_F(FaultyBuild, AnotherInputOrSettingStartsAnew) {
 TEST_F(FaultyBuild, AnInputThatIsAwayForAWhileLosesNothing) {
   const auto mesh = directory_.write("wavy.obj", wavyObj(9)), away = directory_.path() / "away.obj";
   ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
-  ASSERT_TRUE(build("wavy.obj", "x.far", "FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT=40").killed);
+  ASSERT_TRUE(build("wavy.obj", "x.far", "FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT=20").killed);
   std::filesystem::rename(mesh, away);
   const Outcome gone = build("wavy.obj", "x.far");
   EXPECT_EQ(gone.code, 1);
