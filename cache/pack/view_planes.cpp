@@ -188,7 +188,7 @@ PlaneFilter appendFiltered(uint32_t index, std::span<const uint8_t> plane, std::
 bool expand(ByteReader& in, Mask mask, std::span<uint8_t> plane) {
   if (mask.empty()) {
     const std::span<const std::byte> stored = in.take(plane.size());
-    std::memcpy(plane.data(), stored.data(), stored.size());
+    std::copy_n(reinterpret_cast<const uint8_t*>(stored.data()), stored.size(), plane.data());
     return in.ok();
   }
   const auto* const stored = reinterpret_cast<const uint8_t*>(in.rest().data());
