@@ -43,6 +43,14 @@ Result<> writeAll(int descriptor, const std::string& path, uint64_t offset, std:
   return {};
 }
 
+// The size of an opened file; an error when it is something else, which could block for ever or have no size.
+Result<uint64_t> regularFileBytes(int descriptor, const std::string& path) {
+  struct stat info {};
+  if (::fstat(descriptor, &info) != 0) return ioError(path, "cannot stat", errno);
+  if (!S_ISREG(info.st_mode)) return fail(ErrorKind::io, "{}: expected a regular file, found something else", path);
+  return static_cast<uint64_t>(info.st_size);
+}
+
 std::filesystem::path directoryOf(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
@@ -103,11 +111,7 @@ Result<InputFile> InputFile::open(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return ioError(path, "cannot open", errno);
   InputFile file(descriptor, path.string(), 0);
-  struct stat info {};
-  if (::fstat(descriptor, &info) != 0) return ioError(path, "cannot stat", errno);
-  if (!S_ISREG(info.st_mode))
-    return fail(ErrorKind::io, "{}: expected a regular file, found something else", file.path_);
-  file.sizeBytes_ = static_cast<uint64_t>(info.st_size);
+  FARCELL_ASSIGN(file.sizeBytes_, regularFileBytes(descriptor, file.path_));
   return file;
 }
 
@@ -235,11 +239,7 @@ Result<GrowingFile> GrowingFile::open(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   if (descriptor < 0) return ioError(path, "cannot open for writing", errno);
   GrowingFile file(descriptor, path.string(), 0);
-  struct stat info {};
-  if (::fstat(descriptor, &info) != 0) return ioError(path, "cannot stat", errno);
-  if (!S_ISREG(info.st_mode))
-    return fail(ErrorKind::io, "{}: expected a regular file, found something else", file.path_);
-  file.sizeBytes_ = static_cast<uint64_t>(info.st_size);
+  FARCELL_ASSIGN(file.sizeBytes_, regularFileBytes(descriptor, file.path_));
   return file;
 }
 

@@ -14,25 +14,13 @@
 
 #include "cache/base/file.h"
 #include "tests/preprocess/read/read_support.h"
+#include "tests/tools/build/wavy_model.h"
 #include "tests/support/sanitized.h"
 
 namespace farcell::test {
 namespace {
 
 constexpr const char* kOldPack = "an older pack";
-
-// A wavy square of 2 n^2 triangles.
-std::string wavyObj(int n) {
-  std::string text;
-  for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) text += fmt::format("v {} {} {}\n", x, y, (x * 7 + y * 5) % 11 * 0.3);
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const int a = y * (n + 1) + x + 1;
-      text += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + 1, a + n + 1, a + 1, a + n + 2, a + n + 1);
-    }
-  return text;
-}
 
 class InterruptedBuild : public testing::Test {
  protected:

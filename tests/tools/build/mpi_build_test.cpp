@@ -7,6 +7,7 @@
 
 #include "cache/base/file.h"
 #include "tests/preprocess/read/read_support.h"
+#include "tests/tools/build/wavy_model.h"
 
 namespace farcell::test {
 namespace {
@@ -21,18 +22,6 @@ class MpiBuild : public testing::Test {
     directory_.write("wavy.obj", wavyObj(30));
   }
 
-  // A wavy square of 2 n^2 triangles.
-  static std::string wavyObj(int n) {
-    std::string text;
-    for (int y = 0; y <= n; ++y)
-      for (int x = 0; x <= n; ++x) text += fmt::format("v {} {} {}\n", x, y, (x * 7 + y * 5) % 11 * 0.3);
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x) {
-        const int a = y * (n + 1) + x + 1;
-        text += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + 1, a + n + 1, a + 1, a + n + 2, a + n + 1);
-      }
-    return text;
-  }
   int run(const std::string& command) const {
     const std::string whole = fmt::format("cd '{}' && {} >out.txt 2>err.txt", directory_.path().string(), command);
     const int status = std::system(whole.c_str());
