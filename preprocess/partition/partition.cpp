@@ -121,8 +121,8 @@ Result<Partition> partitionMesh(MeshReader& mesh, const BuildSettings& settings,
     return *std::move(finished);
   }
   const WorkFiles files(options.workDirectory);
-  FARCELL_ASSIGN(MeshBounds bounds, measureMesh(mesh, files.measure, progress));
-  Index index{gridAround(bounds.min, bounds.max), {}, std::move(bounds.counts), recordFormatOf(mesh), {}};
+  FARCELL_ASSIGN(MeshMeasure measure, measureMesh(mesh, settings, files.measure, progress));
+  Index index{measure.grid, {}, std::move(measure.counts), recordFormatOf(mesh), {}};
   const SplitRule rule(settings, index.grid.bits);
   const int depth = std::min(BucketLayout::kMaxDepth, rule.deepest());
   FARCELL_ASSIGN(std::shared_ptr<const BucketFile> spool,

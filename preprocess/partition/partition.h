@@ -1,6 +1,7 @@
 // From a stream of triangles to the leaves of an octree, in bounded memory and so that a killed run can go on.
 //
-// 1. measure: a pass over the mesh finds the box of what is accepted, and with it the root cube and its grid.
+// 1. measure: a pass over the mesh finds the box of what is accepted, and with it the root cube (root_cube.h) and its
+//    grid.
 // 2. spool (spool.h): a second pass puts every triangle on the grid and sorts it, through scratch, into the smallest
 //    cell of the octree's upper levels that holds it whole (bucket_file.h).
 // 3. split (split_phase.h): from the root down, triangles that a cell's planes cut become polygons of its octants,
@@ -37,7 +38,7 @@ namespace farcell {
 
 // A leaf of fewer triangles than this share of leafTriangles is never split for fineness alone.
 inline constexpr int kFinenessShare = 2;
-inline constexpr double kTrianglesPerTexel = 16;
+inline constexpr double kTrianglesPerTexel = 64;
 inline constexpr double kMaxGrowth = 2;
 
 inline constexpr uint64_t kMinPartitionMemoryBytes = uint64_t{48} << 20;

@@ -8,28 +8,32 @@
 
 #include "cache/base/interrupt.h"
 #include "preprocess/partition/grid_triangle.h"
+#include "preprocess/partition/root_cube.h"
 
 namespace farcell {
 namespace {
 
-constexpr int kMaxWorkers = 3;  // one thread reads the mesh: more than that do not help it
+constexpr uint64_t kMeasureMagic = 0x31727361'656d7470;  // "ptmeasr1"
+constexpr int kMaxWorkers = 3;                           // one thread reads the mesh: more than that do not help it
 constexpr uint64_t kSegments = 48;
 constexpr uint64_t kMinPortionBytes = uint64_t{4} << 20;
 constexpr std::chrono::seconds kFlushInterval{2};
 
-std::optional<MeshBounds> readBounds(const std::filesystem::path& file) {
-  MeshBounds bounds;
+std::optional<MeshMeasure> readMeasure(const std::filesystem::path& file) {
+  MeshMeasure measure;
   std::optional<SealedReader> reader = SealedReader::open(file);
-  if (!reader || !reader->get(bounds.min) || !reader->get(bounds.max) || !getCounts(*reader, bounds.counts))
+  uint64_t magic = 0;
+  if (!reader || !reader->get(magic) || magic != kMeasureMagic || !reader->get(measure.grid) ||
+      !getCounts(*reader, measure.counts))
     return std::nullopt;
-  return bounds;
+  return measure;
 }
 
-Result<> writeBounds(const std::filesystem::path& file, const MeshBounds& bounds) {
+Result<> writeMeasure(const std::filesystem::path& file, const MeshMeasure& measure) {
   SealedWriter writer;
-  writer.put(bounds.min);
-  writer.put(bounds.max);
-  putCounts(writer, bounds.counts);
+  writer.put(kMeasureMagic);
+  writer.put(measure.grid);
+  putCounts(writer, measure.counts);
   return writer.commit(file);
 }
 
@@ -105,30 +109,33 @@ RecordFormat recordFormatOf(const MeshReader& mesh) {
   return {mesh.info().hasColours, mesh.info().hasNormals, !mesh.textures().empty()};
 }
 
-Result<MeshBounds> measureMesh(MeshReader& mesh, const std::filesystem::path& file, Progress& progress) {
-  if (std::optional<MeshBounds> bounds = readBounds(file)) return *std::move(bounds);
-  MeshBounds bounds{
-      glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity()), {}};
+Result<MeshMeasure> measureMesh(MeshReader& mesh, const BuildSettings& settings, const std::filesystem::path& file,
+                                Progress& progress) {
+  if (std::optional<MeshMeasure> measure = readMeasure(file)) return *std::move(measure);
+  glm::dvec3 least(std::numeric_limits<double>::infinity()), greatest(-least);
+  TriangleSample sample;
   progress.begin("measure", mesh.info().declaredTriangles, "triangles");
   const auto grow = [&](std::span<const InputTriangle> batch) -> Result<> {
-    glm::dvec3 min = bounds.min, max = bounds.max;
+    glm::dvec3 min = least, max = greatest;
     for (const InputTriangle& triangle : batch) {
       for (const glm::dvec3& position : triangle.positions) {
         min = glm::min(min, position);
         max = glm::max(max, position);
       }
+      sample.add(triangle.positions[0]);
     }
-    bounds.min = min;
-    bounds.max = max;
+    least = min;
+    greatest = max;
     progress.advance(batch.size());
     return checkInterrupt();
   };
-  FARCELL_ASSIGN(bounds.counts, mesh.forEachTriangle(grow));
-  if (bounds.counts.accepted == 0)
+  FARCELL_ASSIGN(MeshCounts counts, mesh.forEachTriangle(grow));
+  if (counts.accepted == 0)
     return fail(ErrorKind::corrupt, "expected at least one triangle with an area, found none among {}",
                 mesh.info().declaredTriangles);
-  FARCELL_TRY(writeBounds(file, bounds));
-  return bounds;
+  MeshMeasure measure{rootCube(gridAround(least, greatest), sample, settings), std::move(counts)};
+  FARCELL_TRY(writeMeasure(file, measure));
+  return measure;
 }
 
 Result<std::shared_ptr<const BucketFile>> spoolMesh(MeshReader& mesh, const Grid& grid, uint64_t triangles,

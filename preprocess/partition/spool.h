@@ -4,20 +4,21 @@
 #include <memory>
 
 #include "cache/base/progress.h"
+#include "cache/schema/model.h"
 #include "preprocess/mesh/mesh_reader.h"
 #include "preprocess/partition/bucket_file.h"
 #include "preprocess/partition/sealed_file.h"
 
 namespace farcell {
 
-struct MeshBounds {
-  glm::dvec3 min;  // of all accepted triangles
-  glm::dvec3 max;
+struct MeshMeasure {
+  Grid grid;  // around all accepted triangles, see root_cube.h
   MeshCounts counts;
 };
 
 // Kept in `file`, and taken from there when it is whole. corrupt when the mesh has no triangle that can be drawn.
-Result<MeshBounds> measureMesh(MeshReader& mesh, const std::filesystem::path& file, Progress& progress);
+Result<MeshMeasure> measureMesh(MeshReader& mesh, const BuildSettings& settings, const std::filesystem::path& file,
+                                Progress& progress);
 
 void putCounts(SealedWriter& writer, const MeshCounts& counts);
 bool getCounts(SealedReader& reader, MeshCounts& counts);
