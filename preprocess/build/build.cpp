@@ -15,9 +15,8 @@
 #include "preprocess/build/assemble.h"
 #include "preprocess/build/bake_job.h"
 #include "preprocess/build/mesh_job.h"
+#include "preprocess/build/source_record.h"
 #include "preprocess/build/work_directory.h"
-#include "preprocess/mesh/source_hash.h"
-#include "preprocess/mesh/source_identity.h"
 #include "preprocess/partition/partition.h"
 #include "preprocess/read/open_mesh.h"
 #include "preprocess/texture/textures.h"
@@ -142,14 +141,12 @@ Result<> checkSettings(const BuildSettings& settings) {
 namespace {
 
 // Everything that decides what jobs make; the identity of the work directory.
-Result<std::string> identityOf(const MeshReader& mesh, const BuildSettings& settings) {
+std::string identityOf(const SourceRecord& source, const BuildSettings& settings) {
   BuildSettings ofJobs = settings;
   ofJobs.packBudgetBytes = 0;  // the pack is put together anew each time
   ofJobs.budgetRule = BudgetRule::worth;
-  const std::string text =
-      fmt::format("farcell {} pack {} settings {:016x}\n", FARCELL_VERSION, kPackVersion, hashSettings(ofJobs));
-  FARCELL_ASSIGN(const SourceIdentity source, sourceIdentity(mesh));
-  return text + source.text();
+  return fmt::format("farcell {} pack {} settings {:016x}\n", FARCELL_VERSION, kPackVersion, hashSettings(ofJobs)) +
+         source.identity;
 }
 
 class Build {
@@ -175,9 +172,10 @@ class Build {
   bool leads() const { return crew_.rank() == 0; }
 
   Result<> phases() {
-    FARCELL_TRY(crew_.together(open()));
-    FARCELL_TRY(crew_.together(leads() ? partition() : Result<>()));
-    if (!leads()) FARCELL_TRY(partition());
+    workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
+    FARCELL_TRY(crew_.together(leads() ? open().and_then([this] { return partition(); }) : Result<>()));
+    if (!leads()) FARCELL_TRY(follow());
+    describe(result_.directory);
     return work();
   }
 
@@ -193,38 +191,48 @@ class Build {
     return workDirectory_->remove();
   }
 
-  // The leader opens the work directory, the others only read there.
   Result<> open() {
     FARCELL_TRY(checkSettings(options_.settings));
     if (options_.memoryBytes < kMinMemoryBytes)
       return fail(ErrorKind::invalidArgument, "memory: expected at least {} MiB, found {}", kMinMemoryBytes >> 20,
                   options_.memoryBytes >> 20);
-    FARCELL_TRY(checkOutput());
-    workPath_ = WorkDirectory::placeOf(options_.workParent, pack_);
-    if (leads()) {
-      FARCELL_ASSIGN(WorkDirectory directory, WorkDirectory::open(options_.workParent, pack_));
-      workDirectory_.emplace(std::move(directory));
-    }
-    FARCELL_ASSIGN(reader_, openMeshes(meshes_, {options_.memoryBytes / 4, workPath_}));
-    result_.files = reader_->files();
-    settings_ = options_.settings;
-    if (options_.upOfModel) settings_.up = reader_->info().up;
-    if (options_.unitOfModel) settings_.metresPerUnit = reader_->info().metresPerUnit;
-    FARCELL_TRY(readVisitable());
-    if (!leads()) return {};
-    FARCELL_ASSIGN(const std::string identity, identityOf(*reader_, settings_));
-    FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identity));
+    // Known before hours of work, not after them. Also clears away what a killed build left of the pack.
+    FARCELL_TRY(OutputFile::create(pack_));
+    FARCELL_ASSIGN(WorkDirectory directory, WorkDirectory::open(options_.workParent, pack_));
+    workDirectory_.emplace(std::move(directory));
+    std::optional<SourceRecord> recorded = SourceRecord::load(workPath_, meshes_);
+    if (recorded)
+      source_ = *std::move(recorded);
+    else
+      FARCELL_TRY(openSource());
+    FARCELL_TRY(takeSource());
+    FARCELL_ASSIGN(result_.resumed, workDirectory_->belongsTo(identityOf(source_, settings_)));
     identified_ = true;
-    FARCELL_ASSIGN(result_.directory.sourceHash, sourceHash(*reader_));
     return result_.resumed ? Result<>() : preflight();
+  }
+
+  Result<> openSource() {
+    FARCELL_ASSIGN(reader_, openMeshes(meshes_, {options_.memoryBytes / 4, workPath_}));
+    FARCELL_ASSIGN(source_, SourceRecord::of(*reader_));
+    return {};
+  }
+
+  // What of the result and the settings comes from the source.
+  Result<> takeSource() {
+    result_.files = source_.files;
+    result_.directory.sourceHash = source_.hash;
+    settings_ = options_.settings;
+    if (options_.upOfModel) settings_.up = source_.info.up;
+    if (options_.unitOfModel) settings_.metresPerUnit = source_.info.metresPerUnit;
+    return readVisitable();
   }
 
   // Whether the disk can hold what is to come, as far as the input tells.
   Result<> preflight() {
     constexpr uint64_t kJobsBytesOfTriangle = 50;  // coded views and meshes of a triangle: twice the usual
-    const MeshInfo& info = reader_->info();
+    const MeshInfo& info = source_.info;
     const uint64_t needed =
-        scratchBytesEstimate(info, !reader_->textures().empty()) + kJobsBytesOfTriangle * info.declaredTriangles;
+        scratchBytesEstimate(info, source_.textures > 0) + kJobsBytesOfTriangle * info.declaredTriangles;
     FARCELL_ASSIGN(const uint64_t free, freeBytes(workPath_));
     if (options_.tell)
       options_.tell(fmt::format("{}: about {:.2f} GB for work, {:.2f} GB free", workPath_.string(),
@@ -247,30 +255,47 @@ class Build {
     return {};
   }
 
-  // Known before hours of work, not after them. Also clears away what a killed build left of the pack.
-  Result<> checkOutput() const {
-    if (!leads()) return {};
-    FARCELL_TRY(OutputFile::create(pack_));
-    return {};
-  }
-
   Result<> partition() {
     const auto start = std::chrono::steady_clock::now();
-    FARCELL_ASSIGN(Textures textures, Textures::open(reader_->textures(), workPath_, threads_, progress_));
-    textures_.emplace(std::move(textures));
-    result_.textures = {textures_->count() - textures_->leftOut().size(), textures_->leftOut()};
-    const PartitionOptions options{workPath_ / "partition", threads_, options_.memoryBytes / 2};
+    if (result_.resumed && !reader_) {
+      FARCELL_ASSIGN(const bool there, recall());
+      if (there) return {};
+    }
+    if (!reader_) FARCELL_TRY(openSource());
+    FARCELL_ASSIGN(textures_, Textures::open(reader_->textures(), workPath_, threads_, progress_));
+    const PartitionOptions options{partitionPath(), threads_, options_.memoryBytes / 2};
     FARCELL_TRY(makeDirectory(options.workDirectory));
-    FARCELL_ASSIGN(Partition partition, partitionMesh(*reader_, settings_, options, progress_));
-    partition_.emplace(std::move(partition));
-    tree_ = cellTreeOf(partition_->leaves, partition_->triangles);
+    FARCELL_ASSIGN(partition_, partitionMesh(*reader_, settings_, options, progress_));
+    FARCELL_TRY(source_.save(workPath_, meshes_));
     result_.seconds.partition = partition_->splitSeconds;
     result_.seconds.read = secondsSince(start) - partition_->splitSeconds;
-    describe(result_.directory);
     reader_.reset();
     ::malloc_trim(0);  // vertices and chunks: jobs have the memory now
     return {};
   }
+
+  // Textures and partition as an earlier run, or the leader, left them; false where they are not whole.
+  Result<bool> recall() {
+    textures_ = Textures::load(workPath_, source_.textures);
+    FARCELL_ASSIGN(partition_, loadPartition(partitionPath()));
+    return textures_ && partition_;
+  }
+
+  // After the leader's partition, without a look at the meshes.
+  Result<> follow() {
+    std::optional<SourceRecord> recorded = SourceRecord::load(workPath_, meshes_);
+    if (!recorded)
+      return fail(ErrorKind::io, "{}: expected what the first process read of the input, found nothing of these meshes",
+                  workPath_.string());
+    source_ = *std::move(recorded);
+    FARCELL_TRY(takeSource());
+    FARCELL_ASSIGN(const bool there, recall());
+    if (there) return {};
+    return fail(ErrorKind::io, "{}: expected the partition that the first process made, found none whole",
+                workPath_.string());
+  }
+
+  std::filesystem::path partitionPath() const { return workPath_ / "partition"; }
 
   static Result<> makeDirectory(const std::filesystem::path& path) {
     std::error_code code;
@@ -279,12 +304,14 @@ class Build {
     return {};
   }
 
-  void describe(Directory& directory) const {
-    const MeshInfo& info = reader_->info();
+  void describe(Directory& directory) {
+    tree_ = cellTreeOf(partition_->leaves, partition_->triangles);
+    result_.textures = {textures_->count() - textures_->leftOut().size(), textures_->leftOut()};
     directory.sourceName = meshes_[0].filename().string();
-    directory.model = {partition_->grid, partition_->bounds, settings_, info.hasNormals, info.hasColours};
+    directory.model = {partition_->grid, partition_->bounds, settings_, source_.info.hasNormals,
+                       source_.info.hasColours};
     directory.report.inputTriangles = partition_->counts.accepted;
-    directory.report.inputVertices = info.vertices;
+    directory.report.inputVertices = source_.info.vertices;
     directory.report.skipped = partition_->counts.skipped;
     directory.cells = tree_.cells;
   }
@@ -394,6 +421,7 @@ class Build {
   Progress& progress_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
+  SourceRecord source_;
   BuildSettings settings_;
   std::filesystem::path workPath_;
   std::optional<WorkDirectory> workDirectory_;  // the leader's

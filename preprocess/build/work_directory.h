@@ -5,8 +5,10 @@
 // in it:
 //   lock, identity     of this header
 //   partition/         leaves and their index (partition.h)
+//   textures, .tiles   the images that colour it (textures.h)
+//   source             what was read of the meshes, once partition and textures are whole (source_record.h)
 //   cells.<n>.log      the journal of process n (journal.h, cell_store.h)
-// and scratch of readers and textures.
+// and scratch of readers.
 #pragma once
 
 #include <cstdint>

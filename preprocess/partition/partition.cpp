@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "preprocess/partition/sealed_file.h"
+#include "cache/base/sealed_file.h"
 #include "preprocess/partition/split_phase.h"
 #include "preprocess/partition/spool.h"
 

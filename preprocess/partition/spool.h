@@ -7,7 +7,7 @@
 #include "cache/schema/model.h"
 #include "preprocess/mesh/mesh_reader.h"
 #include "preprocess/partition/bucket_file.h"
-#include "preprocess/partition/sealed_file.h"
+#include "cache/base/sealed_file.h"
 
 namespace farcell {
 

@@ -1,7 +1,8 @@
 // The textures of a mesh, for as many threads as want to look at them, in bounded memory.
 //
 // 1. open: every image is checked (image_data.h), decoded once (image_rows.h) and goes as a pyramid of tiles
-//    (pyramid.h) to scratch: 16/3 bytes a pixel on disk, some rows in memory.
+//    (pyramid.h) to a file of the work directory: 16/3 bytes a pixel on disk, some rows in memory. What became of all
+//    images goes to another: from then on neither mesh nor images are needed.
 // 2. Each thread takes a sampler: it finds tiles through a cache of its own (tile_cache.h) and filters them (filter.h).
 //    No lock, no state that an answer could depend on.
 //
@@ -11,6 +12,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,18 +25,22 @@
 
 namespace farcell {
 
-// One of them in scratch.
+// One of them in the file of tiles.
 struct Pyramid {
   std::vector<PyramidLevel> levels;  // empty: left out
-  uint64_t firstTile = 0;            // in scratch
+  uint64_t firstTile = 0;            // in the file
   TextureWrap wrapU = TextureWrap::repeat, wrapV = TextureWrap::repeat;
 };
 
 class Textures {
  public:
-  // Fails only where scratch does, or when the user interrupts. Without sources no file is made.
-  static Result<Textures> open(std::span<const TextureSource> sources, const std::filesystem::path& scratchDirectory,
+  // Takes them from the work directory where an earlier call left all of them. Fails only where the directory does, or
+  // when the user interrupts. Without sources no file is made. The owner of the directory sees to it that all in it
+  // comes from the same sources.
+  static Result<Textures> open(std::span<const TextureSource> sources, const std::filesystem::path& workDirectory,
                                int threads, Progress& progress);
+  // Nothing where not all of `count` textures were left; several processes may call it. Changes nothing.
+  static std::optional<Textures> load(const std::filesystem::path& workDirectory, uint64_t count);
 
   size_t count() const { return pyramids_.size(); }
   // Why each image that was left out was, in the order of the sources.
@@ -44,6 +50,7 @@ class Textures {
 
  private:
   Textures() = default;
+  Result<> save(const std::filesystem::path& workDirectory) const;
 
   std::unique_ptr<ScratchFile> tiles_;  // does not move: samplers hold on to it
   std::vector<Pyramid> pyramids_;

@@ -32,7 +32,9 @@ class TextureTest : public testing::Test {
   }
   Textures open(const std::vector<TextureSource>& sources, int threads = 1) {
     Progress silent(false);
-    return Textures::open(sources, directory_, threads, silent).value();
+    work_ = directory_ / fmt::format("work{}", works_++);
+    std::filesystem::create_directory(work_);
+    return Textures::open(sources, work_, threads, silent).value();
   }
   // The one texture that `source` must be, and a sampler of it.
   TextureSampler& sampler(const TextureSource& from) {
@@ -43,6 +45,8 @@ class TextureTest : public testing::Test {
   }
 
   std::filesystem::path directory_;
+  std::filesystem::path work_;  // of the last open()
+  int works_ = 0;
   std::unique_ptr<Textures> textures_;
   std::unique_ptr<TextureSampler> sampler_;
 };

@@ -189,6 +189,40 @@ TEST_F(Textured, NumbersThatAreNoneGiveAColour) {
   }
 }
 
+TEST_F(Textured, WhatWasDecodedIsFoundAgainWithoutTheImages) {
+  const TextureSource image = source("checker.png", checkerboard(200)), bad = source("bad.png", "no image");
+  const Textures made = open({image, bad}, 2);
+  std::filesystem::remove(image.file);
+  std::filesystem::remove(bad.file);
+  const std::optional<Textures> found = Textures::load(work_, 2);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->count(), 2u);
+  ASSERT_EQ(found->leftOut().size(), 1u);
+  EXPECT_EQ(found->leftOut()[0].message, made.leftOut()[0].message);
+  const auto before = made.sampler(), after = found->sampler();
+  for (int i = 0; i < 1000; ++i) {
+    const auto at = static_cast<float>(i);
+    const TextureLookup lookup = square({0.0137f * at, 0.0071f * at}, 0.001f * at);
+    ASSERT_EQ(after->sample(lookup), before->sample(lookup)) << i;
+  }
+  EXPECT_FALSE(Textures::load(work_, 1));
+  EXPECT_TRUE(Textures::load(work_, 0)) << "a mesh without textures has left nothing";
+}
+
+TEST_F(Textured, WhatIsNotWholeIsNotFound) {
+  open({source("checker.png", checkerboard(200))});
+  const auto tiles = work_ / "textures.tiles", index = work_ / "textures";
+  const uint64_t size = std::filesystem::file_size(tiles);
+  std::filesystem::resize_file(tiles, size - 1);
+  EXPECT_FALSE(Textures::load(work_, 1));
+  std::filesystem::resize_file(tiles, size);
+  EXPECT_TRUE(Textures::load(work_, 1));
+  std::filesystem::resize_file(index, std::filesystem::file_size(index) - 1);
+  EXPECT_FALSE(Textures::load(work_, 1));
+  std::filesystem::remove(index);
+  EXPECT_FALSE(Textures::load(work_, 1));
+}
+
 TEST_F(Textured, AMeshWithoutTexturesNeedsNoScratch) {
   Progress silent(false);
   const auto none = Textures::open({}, "/no/such/directory", 1, silent);

@@ -14,8 +14,9 @@
 
 #include "cache/base/file.h"
 #include "tests/preprocess/read/read_support.h"
-#include "tests/tools/build/wavy_model.h"
+#include "tests/support/images/encode_image.h"
 #include "tests/support/sanitized.h"
+#include "tests/tools/build/wavy_model.h"
 
 namespace farcell::test {
 namespace {
@@ -172,6 +173,26 @@ TEST_F(FaultyBuild, AnInputThatIsAwayForAWhileLosesNothing) {
   ASSERT_TRUE(exists("x.far.work/identity"));
   std::filesystem::rename(away, mesh);
   ASSERT_EQ(build("wavy.obj", "x.far").code, 0);
+  EXPECT_TRUE(bytes("x.far") == bytes("whole.far"));
+}
+
+// After the partition neither meshes nor images are read again: what they hold could as well be something else.
+TEST_F(FaultyBuild, GoingOnAfterThePartitionDoesNotReadTheInputAgain) {
+  const auto mesh = directory_.write(
+      "wavy.obj", "mtllib wavy.mtl\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl skin\n" + wavyObj(9) + "f 1/1 2/2 11/3\n");
+  directory_.write("wavy.mtl", "newmtl skin\nmap_Kd skin.png\n");
+  const auto image = directory_.write(
+      "skin.png", encodeImage("png", {70, 50, 3, 8}, [](int x, int y, int c) { return (x * y + 90 * c) % 256; }));
+  ASSERT_EQ(build("wavy.obj", "whole.far").code, 0);
+  const int calls = callsOfWholeBuild();
+  ASSERT_TRUE(build("wavy.obj", "x.far", fmt::format("FARCELL_FAULT_KIND=kill FARCELL_FAULT_AT={}", calls - 8)).killed);
+  for (const auto& file : {mesh, image}) {
+    const auto written = std::filesystem::last_write_time(file);
+    std::fstream(file, std::ios::in | std::ios::out) << "nothing of use";
+    std::filesystem::last_write_time(file, written);
+  }
+  const Outcome again = build("wavy.obj", "x.far");
+  ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_TRUE(bytes("x.far") == bytes("whole.far"));
 }
 

@@ -1,4 +1,4 @@
-farcell_tests(tools/build DEPS farcell_preprocess_read farcell_cache_pack nlohmann_json::nlohmann_json)
+farcell_tests(tools/build DEPS farcell_preprocess_read farcell_cache_pack farcell_tests_support_images nlohmann_json::nlohmann_json)
 if(TARGET tools_build_test)
   add_dependencies(tools_build_test farcell-build farcell-info farcell_io_faults)
   if(TARGET farcell-build-mpi)

@@ -1,4 +1,4 @@
-#include "preprocess/partition/sealed_file.h"
+#include "cache/base/sealed_file.h"
 
 #include "cache/base/hash.h"
 
