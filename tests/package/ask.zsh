@@ -2,13 +2,14 @@
 # usage: ask.zsh <directory of completions> <word>...   Prints what zsh would offer for the last word, a line each.
 # zsh completes only where it reads keys: a second one, on a pseudo-terminal, gets the line and a tab. There, compadd
 # prints what it is given between two lines that hold a NUL.
+# The list of all completions takes seconds to make: .zcompdump in the current directory keeps it, for more questions.
 zmodload zsh/zpty
 setup=$(mktemp)
 trap 'rm -rf $setup' EXIT
 cat >$setup <<END
 PROMPT=
 fpath=(${(q)1} \$fpath)
-autoload -Uz compinit && compinit -u -D
+autoload -Uz compinit && compinit -u -d \$PWD/.zcompdump
 bindkey '^I' complete-word
 mark() { print -r -- \$'\0' }
 compprefuncs=(mark)

@@ -1,45 +1,26 @@
 #!/usr/bin/env bash
-# Shows that check.sh finds what it is there for: each violation is made alone in a clean tree.
+# Shows that check.sh finds what it is there for: each violation is made in a file of its own of one small tree.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-failures=0
 
-fresh() {
-  rm -rf "$tree"
-  mkdir -p "$tree"/{cache/base,cache/schema,cache/pack,preprocess/read,preprocess/bake,preprocess/partition,runtime/gl,runtime/draw,tools/cli,tools/build,tools/render,tests/cache/base,datasets/city,shaders/shared}
-  printf '#pragma once\nnamespace farcell {\nint base();\n}\n' >"$tree/cache/base/base.h"
-  printf '#pragma once\n#include "cache/base/base.h"\n' >"$tree/cache/pack/pack.h"
-  printf '#pragma once\n#include "cache/pack/pack.h"\n' >"$tree/preprocess/read/read.h"
-  printf '#include "preprocess/read/read.h"\n#include <vector>\n' >"$tree/tools/build/main.cpp"
-  printf '#ifndef A_H\n#define A_H\n#endif\n' >"$tree/shaders/shared/a.h"
-  echo '#pragma once' >"$tree/runtime/gl/gl.h"
-}
-
-# expect <text of the finding> <file> <content>: the file, added to the clean tree, is found; nothing else is.
-expect() {
-  local found
-  fresh
-  mkdir -p "$(dirname "$tree/$2")"
-  printf '%b' "$3" >"$tree/$2"
-  found=$("$BASH" "$here/check.sh" "$tree") && found="(no finding)"
-  if [[ $found != *"$1"* || $(wc -l <<<"$found") -ne 1 ]]; then
-    printf 'expected one finding with "%s" for %s, found:\n%s\n' "$1" "$2" "$found"
-    failures=$((failures + 1))
-  fi
-}
-
-accept() {
-  local found
-  fresh
-  mkdir -p "$(dirname "$tree/$1")"
+make() {
+  if [[ -e $tree/$1 ]]; then echo "check_test: two cases in $1" >&2; exit 2; fi
+  local directory=$tree/${1%/*}
+  [[ -d $directory ]] || mkdir -p "$directory"
   printf '%b' "$2" >"$tree/$1"
-  if ! found=$("$BASH" "$here/check.sh" "$tree"); then
-    printf 'expected no finding for %s, found:\n%s\n' "$1" "$found"
-    failures=$((failures + 1))
-  fi
 }
+
+# expect <file> <text of the finding> <content>: the file has this finding and no other.
+declare -A expected=()
+expect() {
+  make "$1" "$3"
+  expected[$1]=$2
+}
+
+# accept <file> <content>: the file has no finding.
+accept() { make "$1" "$2"; }
 
 longFunction() {
   printf 'int f() {\\n'
@@ -47,40 +28,74 @@ longFunction() {
   printf '}\\n'
 }
 
+# Clean files, which others may include.
+accept cache/base/base.h '#pragma once\nnamespace farcell {\nint base();\n}\n'
+accept cache/pack/pack.h '#pragma once\n#include "cache/base/base.h"\n'
+accept preprocess/read/read.h '#pragma once\n#include "cache/pack/pack.h"\n'
+accept tools/build/main.cpp '#include "preprocess/read/read.h"\n#include <vector>\n'
+accept shaders/shared/a.h '#ifndef A_H\n#define A_H\n#endif\n'
+accept runtime/gl/gl.h '#pragma once\n'
+
 accept cache/base/a.cpp '#include "cache/base/base.h"\n'
 accept tests/cache/base/a_test.cpp '#include <gtest/gtest.h>\n#include "tools/build/b.h"\n#include "runtime/gl/gl.h"\n'
 accept preprocess/bake/a.cpp '#include "cache/schema/a.h"\n#include "hwy/highway.h"\n'
-expect 'layer: cache/base/ may not include cache/schema/' cache/base/a.cpp '#include "cache/schema/b.h"\n'
-expect 'cache/pack/a.h:2: layer: cache/pack/ may not include preprocess/read/' cache/pack/a.h '#pragma once\n#include "preprocess/read/read.h"\n'
-expect 'layer: preprocess/read/ may not include runtime/gl/' preprocess/read/a.cpp '  #  include "runtime/gl/gl.h"\n'
-expect 'layer: runtime/draw/ may not include preprocess/read/' runtime/draw/a.cpp '#include "preprocess/read/read.h"\n'
-expect 'layer: preprocess/partition/ may not include preprocess/bake/' preprocess/partition/a.cpp '#include "preprocess/bake/b.h"\n'
-expect 'layer: datasets/ may not include cache/pack/' datasets/city/a.cpp '#include "cache/pack/pack.h"\n'
-expect 'layer: tools/build/ may not include tools/render/' tools/build/a.cpp '#include "tools/render/b.h"\n'
-expect 'layer: tools/build/ may not include tests/' tools/build/a.cpp '#include "tests/support/b.h"\n'
-expect 'not written from the root' cache/base/a.cpp '#include "base.h"\n'
-expect 'dependency: Embree' preprocess/bake/a.cpp '#include <embree3/rtcore.h>\n'
-expect 'dependency: OpenImageIO' cache/pack/a.cpp '#include <OpenImageIO/imageio.h>\n'
-expect 'dependency: meshoptimizer' runtime/draw/a.cpp '#include <meshoptimizer.h>\n'
-expect 'dependency: zlib' preprocess/read/a.cpp '#include <libdeflate.h>\n'
-expect 'dependency: GLFW' runtime/gl/a.cpp '#include <GLFW/glfw3.h>\n'
-expect 'dependency: libpng' tools/render/a.cpp '#include <png.h>\n'
-expect 'dependency: EGL' tools/render/a.cpp '#include <epoxy/egl.h>\n'
-expect 'dependency: nlohmann' preprocess/read/a.cpp '#include <nlohmann/json.hpp>\n'
-expect 'layer: preprocess/read/scene/ may not include preprocess/read/' preprocess/read/scene/a.cpp '#include "preprocess/read/open_mesh.h"\n'
-expect 'dependency: CLI11' cache/base/a.cpp '#include <CLI/CLI.hpp>\n'
-expect 'size: 501 lines' cache/base/a.cpp "$(printf '//\\n%.0s' $(seq 501))"
-expect 'size: a function of 61 lines' cache/base/a.cpp "$(longFunction 59)"
-accept cache/base/a.cpp "$(longFunction 58)"
-accept cache/base/a.cpp "// Long because the table is long.\\n$(longFunction 59)"
-expect 'guard: neither' cache/base/a.h 'int a();\n'
-expect 'namespace: `using namespace`' cache/base/a.h '#pragma once\nusing namespace std;\n'
-accept cache/base/a.cpp 'using namespace std;\n'
-expect 'name: a directory is named' cache/utils/a.txt ''
-expect 'name: not a directory of the top level' docs/a.txt ''
-expect 'download:' cmake/a.cmake 'include(FetchContent)\n'
-expect 'download:' tools/a.sh 'pip install numpy\n'
-expect 'layer: lies in no known layer' cache/other/a.cpp '\n'
+expect cache/base/b.cpp 'layer: cache/base/ may not include cache/schema/' '#include "cache/schema/b.h"\n'
+expect cache/pack/a.h 'cache/pack/a.h:2: layer: cache/pack/ may not include preprocess/read/' '#pragma once\n#include "preprocess/read/read.h"\n'
+expect preprocess/read/a.cpp 'layer: preprocess/read/ may not include runtime/gl/' '  #  include "runtime/gl/gl.h"\n'
+expect runtime/draw/a.cpp 'layer: runtime/draw/ may not include preprocess/read/' '#include "preprocess/read/read.h"\n'
+expect preprocess/partition/a.cpp 'layer: preprocess/partition/ may not include preprocess/bake/' '#include "preprocess/bake/b.h"\n'
+expect datasets/city/a.cpp 'layer: datasets/ may not include cache/pack/' '#include "cache/pack/pack.h"\n'
+expect tools/build/a.cpp 'layer: tools/build/ may not include tools/render/' '#include "tools/render/b.h"\n'
+expect tools/build/b.cpp 'layer: tools/build/ may not include tests/' '#include "tests/support/b.h"\n'
+expect cache/base/c.cpp 'not written from the root' '#include "base.h"\n'
+expect preprocess/bake/b.cpp 'dependency: Embree' '#include <embree3/rtcore.h>\n'
+expect cache/pack/a.cpp 'dependency: OpenImageIO' '#include <OpenImageIO/imageio.h>\n'
+expect runtime/draw/b.cpp 'dependency: meshoptimizer' '#include <meshoptimizer.h>\n'
+expect preprocess/read/b.cpp 'dependency: zlib' '#include <libdeflate.h>\n'
+expect runtime/gl/a.cpp 'dependency: GLFW' '#include <GLFW/glfw3.h>\n'
+expect tools/render/a.cpp 'dependency: libpng' '#include <png.h>\n'
+expect tools/render/b.cpp 'dependency: EGL' '#include <epoxy/egl.h>\n'
+expect preprocess/read/c.cpp 'dependency: nlohmann' '#include <nlohmann/json.hpp>\n'
+expect preprocess/read/scene/a.cpp 'layer: preprocess/read/scene/ may not include preprocess/read/' '#include "preprocess/read/open_mesh.h"\n'
+expect cache/base/d.cpp 'dependency: CLI11' '#include <CLI/CLI.hpp>\n'
+expect cache/base/e.cpp 'size: 501 lines' "$(printf '//\\n%.0s' $(seq 501))"
+expect cache/base/f.cpp 'size: a function of 61 lines' "$(longFunction 59)"
+accept cache/base/g.cpp "$(longFunction 58)"
+accept cache/base/h.cpp "// Long because the table is long.\\n$(longFunction 59)"
+expect cache/base/a.h 'guard: neither' 'int a();\n'
+expect cache/base/b.h 'namespace: `using namespace`' '#pragma once\nusing namespace std;\n'
+accept cache/base/i.cpp 'using namespace std;\n'
+expect cache/utils/a.txt 'name: a directory is named' ''
+expect docs/a.txt 'name: not a directory of the top level' ''
+expect cmake/a.cmake 'download:' 'include(FetchContent)\n'
+expect tools/a.sh 'download:' 'pip install numpy\n'
+expect cache/other/a.cpp 'layer: lies in no known layer' '\n'
+
+failures=0
+fail() {
+  printf '%s\n' "$*"
+  failures=$((failures + 1))
+}
+
+findings=$("$BASH" "$here/check.sh" "$tree") && fail "expected exit 1"
+# By the path that a finding begins with: a file, or the directory at fault.
+declare -A found=()
+while IFS= read -r line; do
+  path=${line%%:*}
+  for file in "${!expected[@]}"; do
+    if [[ $file == "$path" || $file == "$path"/* ]]; then
+      found[$file]+=$line$'\n'
+      continue 2
+    fi
+  done
+  fail "expected no finding, found: $line"
+done <<<"$findings"
+for file in "${!expected[@]}"; do
+  lines=${found[$file]:-(no finding)$'\n'}
+  if [[ $lines != *"${expected[$file]}"* || $lines == *$'\n'*$'\n' ]]; then
+    fail "expected one finding with \"${expected[$file]}\" for $file, found:"$'\n'"${lines%$'\n'}"
+  fi
+done
 
 if ((failures > 0)); then
   echo "$failures expectations of check.sh failed"
