@@ -113,6 +113,7 @@ double Collapser::errorSteps() const { return std::sqrt(worst_) / scale_; }
 
 void Collapser::findCandidates(const std::vector<float>& limitSteps) {
   candidates_.clear();
+  candidates_.reserve(2 * triangles_.size());
   const auto limit = [&](uint32_t place) {
     const double inHalfSides = limitSteps[place] * scale_;
     return inHalfSides * inHalfSides;

@@ -13,6 +13,7 @@
 namespace farcell::lod {
 namespace {
 
+constexpr uint32_t kNone = UINT32_MAX;
 // Of the greatest distance, squared: triangles with a sample this far are looked at more closely.
 constexpr double kCandidateShare = 0.8;
 constexpr size_t kMostCandidates = 128;
@@ -28,15 +29,17 @@ class Facet {
     const glm::dvec3 normal = glm::cross(ab_, ac_);
     const double square = glm::dot(normal, normal);
     if (!(square > 0)) return;
-    perB_ = glm::cross(ac_, normal) / square;
-    perC_ = glm::cross(normal, ab_) / square;
+    const double inverse = 1 / square;
+    perB_ = glm::cross(ac_, normal) * inverse;
+    perC_ = glm::cross(normal, ab_) * inverse;
   }
   // The squared distance of a point of the triangle: the nearest one where it lies above or below.
   double squareBound(glm::dvec3 point) const {
     const glm::dvec3 apart = point - a_;
     double b = std::max(0.0, glm::dot(apart, perB_)), c = std::max(0.0, glm::dot(apart, perC_));
-    if (const double sum = b + c; sum > 1) b /= sum, c /= sum;
-    const glm::dvec3 left = apart - ab_ * b - ac_ * c;
+    const double sum = std::max(1.0, b + c);
+    const double inverse = 1 / sum;
+    const glm::dvec3 left = apart - ab_ * (b * inverse) - ac_ * (c * inverse);
     return glm::dot(left, left);
   }
 
@@ -47,18 +50,16 @@ class Facet {
 
 class OneSided {
  public:
-  OneSided(const Surface& from, const Surface& to, std::span<const uint32_t> nearby)
-      : from_(from), to_(to), nearby_(nearby), seen_(from.places.size()) {
+  // Both have triangles.
+  OneSided(const Surface& from, const Surface& to, std::span<const uint32_t> nearby, double known)
+      : from_(from), to_(to), nearby_(nearby), seen_(from.places.size()), last_(facet(0)), greatest_(known * known) {
     rings_.build(to.triangles, to.places.size());
-    facets_.reserve(to.triangles.size());
-    for (const Triangle& t : to.triangles)
-      facets_.emplace_back(glm::dvec3(to.places[t[0]]), glm::dvec3(to.places[t[1]]), glm::dvec3(to.places[t[2]]));
   }
 
   double greatest() {
-    for (size_t t = 0; t < from_.triangles.size(); t += kFirstStride) lookAt(t);
+    for (size_t t = 0; t < from_.triangles.size(); t += kFirstStride) sampleTriangle(t);
     for (size_t t = 0; t < from_.triangles.size(); ++t)
-      if (t % kFirstStride != 0) lookAt(t);
+      if (t % kFirstStride != 0 && !near(from_.triangles[t])) sampleTriangle(t);
     refine();
     return std::sqrt(greatest_);
   }
@@ -70,19 +71,36 @@ class OneSided {
   };
 
   glm::dvec3 at(uint32_t place) const { return glm::dvec3(from_.places[place]); }
+  Facet facet(uint32_t index) const {
+    const Triangle& t = to_.triangles[index];
+    return {glm::dvec3(to_.places[t[0]]), glm::dvec3(to_.places[t[1]]), glm::dvec3(to_.places[t[2]])};
+  }
+  double enough() const { return kCandidateShare * greatest_; }
 
-  void lookAt(size_t index) {
-    const Triangle& t = from_.triangles[index];
-    const uint32_t a = nearby_[t[0]], b = nearby_[t[1]], c = nearby_[t[2]];
-    for (const RingEdge& edge : rings_.of(a)) {
-      if (edge.next != b || edge.previous != c) continue;
-      last_ = edge.triangle;
-      if (to_.places[a] == from_.places[t[0]] && to_.places[b] == from_.places[t[1]] &&
-          to_.places[c] == from_.places[t[2]])
-        return;  // both have it
-      break;
+  // Whether all of a triangle is near enough: both meshes have it, or its corners are near one and the same triangle. A
+  // distance from what is convex is convex, so no point between the corners is farther than they are.
+  bool near(const Triangle& t) {
+    if (const uint32_t image = imageOf(t); image != kNone) {
+      last_ = facet(image);
+      if (isItsOwnImage(t)) return true;
     }
-    sampleTriangle(index);
+    return last_.squareBound(at(t[0])) <= enough() && last_.squareBound(at(t[1])) <= enough() &&
+           last_.squareBound(at(t[2])) <= enough();
+  }
+
+  // The triangle between the places that are likely near.
+  uint32_t imageOf(const Triangle& t) const {
+    const uint32_t a = nearby_[t[0]], b = nearby_[t[1]], c = nearby_[t[2]];
+    if (a == b || b == c || c == a) return kNone;
+    for (const RingEdge& edge : rings_.of(a))
+      if (edge.next == b && edge.previous == c) return edge.triangle;
+    return kNone;
+  }
+
+  bool isItsOwnImage(const Triangle& t) const {
+    for (const uint32_t place : t)
+      if (to_.places[nearby_[place]] != from_.places[place]) return false;
+    return true;
   }
 
   void sampleTriangle(size_t index) {
@@ -90,35 +108,58 @@ class OneSided {
     for (size_t k = 0; k < 3; ++k) {
       if (!seen_[t[k]]) sample(at(t[k]), index, k);
       seen_[t[k]] = true;
-      if (t[k] < t[(k + 1) % 3]) sample(0.5 * (at(t[k]) + at(t[(k + 1) % 3])), index, k);
     }
+    for (size_t k = 0; k < 3; ++k)
+      if (t[k] < t[(k + 1) % 3]) sample(0.5 * (at(t[k]) + at(t[(k + 1) % 3])), index, k);
     sample((at(t[0]) + at(t[1]) + at(t[2])) / 3.0, index, 0);
   }
 
   void sample(glm::dvec3 point, size_t index, size_t corner) {
-    const double enough = kCandidateShare * greatest_;
-    const double known = boundNearby(point, index, corner, enough);
-    if (known <= enough) return;
-    const double exact = tree().squareDistance(point, known, enough);
-    if (exact <= enough) return;
+    const double exact = squareDistance(point, index, corner, enough());
+    if (exact <= enough()) return;
     candidates_.push_back({exact, index});
     greatest_ = std::max(greatest_, exact);
   }
 
-  // From the triangle that was near the last sample, and from those about the places that are likely near.
-  double boundNearby(glm::dvec3 point, size_t index, size_t corner, double enough) {
-    double known = facets_.empty() ? std::numeric_limits<double>::infinity() : facets_[last_].squareBound(point);
-    const Triangle& triangle = from_.triangles[index];
-    for (size_t k = 0; k < 3 && known > enough; ++k) {
-      for (const RingEdge& edge : rings_.of(nearby_[triangle[(corner + k) % 3]])) {
-        const double bound = facets_[edge.triangle].squareBound(point);
-        if (bound >= known) continue;
-        known = bound;
-        last_ = edge.triangle;
-        if (known <= enough) break;
+  // Of a point near a corner of a triangle; any that is at most `enough` will do. First tried is the triangle that was
+  // near the last one, then those about places that are near.
+  double squareDistance(glm::dvec3 point, size_t index, size_t corner, double enough) {
+    double known = last_.squareBound(point);
+    const Triangle& t = from_.triangles[index];
+    if (known > enough) lookAbout(nearestPlace(point, nearby_[t[corner]]), point, enough, known);
+    for (size_t k = 0; k < 3 && known > enough; ++k) lookAbout(nearby_[t[(corner + k) % 3]], point, enough, known);
+    if (known <= enough) return known;
+    const Nearest nearest = tree().nearest(point, known, enough);
+    if (nearest.square < known) last_ = facet(nearest.triangle);
+    return std::min(known, nearest.square);
+  }
+
+  void lookAbout(uint32_t place, glm::dvec3 point, double enough, double& known) {
+    for (const RingEdge& edge : rings_.of(place)) {
+      const Facet tried = facet(edge.triangle);
+      const double bound = tried.squareBound(point);
+      if (bound >= known) continue;
+      known = bound;
+      last_ = tried;
+      if (bound <= enough) return;
+    }
+  }
+
+  // From neighbour to neighbour while they are nearer.
+  uint32_t nearestPlace(glm::dvec3 point, uint32_t place) const {
+    double least = apartSquare(point, place);
+    for (uint32_t last = kNone; last != place;) {
+      last = place;
+      for (const RingEdge& edge : rings_.of(last)) {
+        const double square = apartSquare(point, edge.next);
+        if (square < least) least = square, place = edge.next;
       }
     }
-    return known;
+    return place;
+  }
+  double apartSquare(glm::dvec3 point, uint32_t place) const {
+    const glm::dvec3 apart = point - glm::dvec3(to_.places[place]);
+    return glm::dot(apart, apart);
   }
 
   // Between the samples of the triangles that are farthest.
@@ -127,17 +168,21 @@ class OneSided {
       return a.distance != b.distance ? a.distance > b.distance : a.triangle < b.triangle;
     });
     if (candidates_.size() > kMostCandidates) candidates_.resize(kMostCandidates);
+    std::vector<size_t> triangles;
     for (const Candidate& candidate : candidates_)
-      if (candidate.distance >= kCandidateShare * greatest_) sampleFinely(from_.triangles[candidate.triangle]);
+      if (candidate.distance >= enough()) triangles.push_back(candidate.triangle);
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    for (const size_t triangle : triangles) sampleFinely(triangle);
   }
 
-  void sampleFinely(const Triangle& t) {
+  void sampleFinely(size_t index) {
+    const Triangle& t = from_.triangles[index];
     for (int i = 0; i <= kFineDivisions; ++i)
       for (int j = 0; i + j <= kFineDivisions; ++j) {
         const double u = static_cast<double>(i) / kFineDivisions, v = static_cast<double>(j) / kFineDivisions;
         const glm::dvec3 point = at(t[0]) * (1 - u - v) + at(t[1]) * u + at(t[2]) * v;
-        greatest_ =
-            std::max(greatest_, tree().squareDistance(point, std::numeric_limits<double>::infinity(), greatest_));
+        greatest_ = std::max(greatest_, squareDistance(point, index, 0, greatest_));
       }
   }
 
@@ -149,19 +194,21 @@ class OneSided {
   const Surface& from_;
   const Surface& to_;
   const std::span<const uint32_t> nearby_;
-  std::vector<bool> seen_;
+  std::vector<bool> seen_;  // of a place
   Rings rings_;
-  std::vector<Facet> facets_;
-  size_t last_ = 0;
+  Facet last_;  // near the last sample
   std::optional<TriangleTree> tree_;
   std::vector<Candidate> candidates_;
-  double greatest_ = 0;
+  double greatest_;
 };
 
 }  // namespace
 
-double greatestDistanceSteps(const Surface& from, const Surface& to, std::span<const uint32_t> nearby) {
-  return OneSided(from, to, nearby).greatest();
+double greatestDistanceSteps(const Surface& from, const Surface& to, std::span<const uint32_t> nearby,
+                             double knownSteps) {
+  if (from.triangles.empty()) return knownSteps;
+  if (to.triangles.empty()) return std::numeric_limits<double>::infinity();
+  return OneSided(from, to, nearby, knownSteps).greatest();
 }
 
 }  // namespace farcell::lod

@@ -14,8 +14,9 @@ struct Surface {
 };
 
 // Samples are the corners, the middles of the edges and of the triangles; where they are farthest, many more.
-// nearby: of a place of `from`, a place of `to` that is likely near. Steps; 0 when `from` has no triangles, infinity
-// when only `to` has none.
-double greatestDistanceSteps(const Surface& from, const Surface& to, std::span<const uint32_t> nearby);
+// nearby: of a place of `from`, a place of `to` that is likely near. knownSteps: a distance that is known, as the other
+// way round; only greater ones are looked for. Steps; infinity when only `to` has no triangles.
+double greatestDistanceSteps(const Surface& from, const Surface& to, std::span<const uint32_t> nearby,
+                             double knownSteps = 0);
 
 }  // namespace farcell::lod

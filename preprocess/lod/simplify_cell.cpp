@@ -45,8 +45,8 @@ double errorSteps(const lod::Surface& children, const lod::Surface& result, cons
   if (result.triangles.size() == children.triangles.size()) return 0;  // none was collapsed or taken away
   std::vector<uint32_t> same(reduction.places.size());
   std::iota(same.begin(), same.end(), 0u);
-  return std::max(lod::greatestDistanceSteps(children, result, reduction.targets),
-                  lod::greatestDistanceSteps(result, children, same));
+  const double there = lod::greatestDistanceSteps(children, result, reduction.targets);
+  return lod::greatestDistanceSteps(result, children, same, there);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,9 +21,35 @@ double squareFromSegment(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) {
   return square(p - (a + along * t));
 }
 
-uint64_t codeOf(std::span<const GridPoint> places, const Triangle& t) {
-  const glm::uvec3 sum(places[t[0]] + places[t[1]] + places[t[2]]);  // below 2^26
-  return mortonCode(CellKey{0, sum.x / 32, sum.y / 32, sum.z / 32});
+// The triangles along the Morton curve of their middles, of 2^kCodeBits divisions of the widest side of their box.
+constexpr int kCodeBits = 10;
+std::vector<uint32_t> mortonOrder(std::span<const GridPoint> places, std::span<const Triangle> triangles) {
+  if (triangles.empty()) return {};
+  GridBox box;
+  for (const Triangle& t : triangles)
+    for (const uint32_t place : t) box.include(places[place]);
+  const GridPoint size = box.max - box.min;
+  const int bits = std::bit_width(3 * static_cast<uint32_t>(std::max({size.x, size.y, size.z})));
+  const int dropped = std::max(0, bits - kCodeBits);
+  std::vector<uint64_t> sorted, buckets(triangles.size());  // code, then number
+  sorted.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    const glm::uvec3 sum(places[t[0]] + places[t[1]] + places[t[2]] - 3 * box.min);
+    const CellKey middle{0, sum.x >> dropped, sum.y >> dropped, sum.z >> dropped};
+    sorted.push_back(mortonCode(middle) << 32 | sorted.size());
+  }
+  for (int shift = 32; shift < 32 + 3 * kCodeBits; shift += kCodeBits) {
+    std::array<uint32_t, (1 << kCodeBits) + 1> starts{};
+    const auto digit = [shift](uint64_t entry) { return entry >> shift & ((1 << kCodeBits) - 1); };
+    for (const uint64_t entry : sorted) ++starts[digit(entry) + 1];
+    for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+    for (const uint64_t entry : sorted) buckets[starts[digit(entry)]++] = entry;
+    std::swap(sorted, buckets);
+  }
+  std::vector<uint32_t> order;
+  order.reserve(sorted.size());
+  for (const uint64_t entry : sorted) order.push_back(static_cast<uint32_t>(entry));
+  return order;
 }
 
 // Infinity where the point is beside the triangle.
@@ -49,17 +76,12 @@ double TriangleTree::Box::squareDistance(glm::dvec3 p) const {
   return glm::dot(outside, outside);
 }
 
-TriangleTree::TriangleTree(std::span<const GridPoint> places, std::span<const Triangle> triangles) : places_(places) {
-  std::vector<std::pair<uint64_t, uint32_t>> order;
-  order.reserve(triangles.size());
-  for (uint32_t i = 0; i < triangles.size(); ++i) order.emplace_back(codeOf(places, triangles[i]), i);
-  std::sort(order.begin(), order.end());
-  triangles_.reserve(triangles.size());
-  for (const auto& [code, index] : order) triangles_.push_back(triangles[index]);
+TriangleTree::TriangleTree(std::span<const GridPoint> places, std::span<const Triangle> triangles)
+    : places_(places), triangles_(triangles), order_(mortonOrder(places, triangles)) {
   if (triangles_.empty()) return;
   levels_.emplace_back((triangles_.size() + kFan - 1) / kFan);
   for (size_t i = 0; i < triangles_.size(); ++i)
-    for (const uint32_t place : triangles_[i]) {
+    for (const uint32_t place : triangles_[order_[i]]) {
       Box& box = levels_[0][i / kFan];
       box.min = glm::min(box.min, places[place]);
       box.max = glm::max(box.max, places[place]);
@@ -75,24 +97,25 @@ TriangleTree::TriangleTree(std::span<const GridPoint> places, std::span<const Tr
   }
 }
 
-double TriangleTree::squareDistance(glm::dvec3 point, double known, double enough) const {
+Nearest TriangleTree::nearest(glm::dvec3 point, double known, double enough) const {
   struct Entry {
     double distance;
     uint32_t level, index;
   };
   std::array<Entry, 64> stack;  // at most kFan - 1 entries a level and the last one's
   size_t size = 0;
-  double best = known;
+  Nearest best{known, 0};
   if (!levels_.empty()) stack[size++] = {0, static_cast<uint32_t>(levels_.size() - 1), 0};
-  while (size > 0 && best > enough) {
+  while (size > 0 && best.square > enough) {
     const Entry entry = stack[--size];
-    if (entry.distance >= best) continue;
+    if (entry.distance >= best.square) continue;
     const size_t begin = kFan * entry.index;
     if (entry.level == 0) {
       for (size_t i = begin; i < std::min(begin + kFan, triangles_.size()); ++i) {
-        const Triangle& t = triangles_[i];
-        best = std::min(best, lod::squareDistance(point, glm::dvec3(places_[t[0]]), glm::dvec3(places_[t[1]]),
-                                                  glm::dvec3(places_[t[2]])));
+        const Triangle& t = triangles_[order_[i]];
+        const double square =
+            squareDistance(point, glm::dvec3(places_[t[0]]), glm::dvec3(places_[t[1]]), glm::dvec3(places_[t[2]]));
+        if (square < best.square) best = {square, order_[i]};
       }
       continue;
     }
@@ -100,7 +123,7 @@ double TriangleTree::squareDistance(glm::dvec3 point, double known, double enoug
     const size_t first = size;
     for (size_t i = begin; i < std::min(begin + kFan, boxes.size()); ++i) {
       const double distance = boxes[i].squareDistance(point);
-      if (distance < best) stack[size++] = {distance, entry.level - 1, static_cast<uint32_t>(i)};
+      if (distance < best.square) stack[size++] = {distance, entry.level - 1, static_cast<uint32_t>(i)};
     }
     // The nearest on top.
     std::sort(stack.begin() + static_cast<ptrdiff_t>(first), stack.begin() + static_cast<ptrdiff_t>(size),

@@ -13,13 +13,18 @@ namespace farcell::lod {
 // Ericson, Real-Time Collision Detection, 2005, section 5.1.5. Squared; exact up to rounding for slivers too.
 double squareDistance(glm::dvec3 point, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
 
+struct Nearest {
+  double square;  // squared distance
+  uint32_t triangle;
+};
+
 class TriangleTree {
  public:
-  // places must outlive this.
+  // Both must outlive this.
   TriangleTree(std::span<const GridPoint> places, std::span<const Triangle> triangles);
 
-  // The squared distance of the nearest triangle, `known` if none is nearer; any that is at most `enough` will do.
-  double squareDistance(glm::dvec3 point, double known, double enough) const;
+  // The nearest triangle, the first with `known` if none is nearer; any whose square is at most `enough` will do.
+  Nearest nearest(glm::dvec3 point, double known, double enough) const;
 
  private:
   struct Box {
@@ -27,7 +32,8 @@ class TriangleTree {
     double squareDistance(glm::dvec3 point) const;
   };
   std::span<const GridPoint> places_;
-  std::vector<Triangle> triangles_;       // in Morton order
+  std::span<const Triangle> triangles_;
+  std::vector<uint32_t> order_;           // Morton order of the triangles
   std::vector<std::vector<Box>> levels_;  // levels_[0]: of four triangles each; the last: one box
 };
 

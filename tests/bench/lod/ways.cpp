@@ -19,8 +19,8 @@ Result<SimplifiedCell> finished(const WeldedMesh& mesh, const Reduction& reducti
   std::vector<uint32_t> same(mesh.places.size());
   std::iota(same.begin(), same.end(), 0u);
   SimplifiedCell cell{lod::outputMesh(mesh, reduction), 0, {}};
-  cell.errorSteps = childrenErrorSteps + std::max(lod::greatestDistanceSteps(full, reduced, reduction.targets),
-                                                  lod::greatestDistanceSteps(reduced, full, same));
+  const double there = lod::greatestDistanceSteps(full, reduced, reduction.targets);
+  cell.errorSteps = childrenErrorSteps + lod::greatestDistanceSteps(reduced, full, same, there);
   cell.figures.childTriangles = mesh.triangles.size();
   return cell;
 }
