@@ -23,14 +23,10 @@ CopyToBuckets copyFor(size_t recordBytes) {
       return copyToBuckets<36>;
     case 48:
       return copyToBuckets<48>;
-    case 60:
-      return copyToBuckets<60>;
     case 64:
       return copyToBuckets<64>;
-    case 76:
-      return copyToBuckets<76>;
     default:
-      return copyToBuckets<88>;
+      return copyToBuckets<76>;
   }
 }
 

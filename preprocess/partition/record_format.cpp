@@ -22,18 +22,26 @@ void getNext(T& value, const std::byte*& at) {
 }  // namespace
 
 void RecordFormat::put(const GridTriangle& triangle, const TriangleTexture& texture, std::byte* record) const {
-  putNext(triangle.corners, record);
-  if (colours) putNext(triangle.colours, record);
+  std::array<uint32_t, 9> words;
+  for (int i = 0; i < 9; ++i) {
+    const uint32_t channel = triangle.colours[i / 3] >> 8 * (i % 3) & 0xff;
+    words[i] = static_cast<uint32_t>(triangle.corners[i / 3][i % 3]) | channel << 24;
+  }
+  putNext(words, record);
   if (normals) putNext(triangle.normals, record);
   if (textures) putNext(texture, record);
 }
 
 GridTriangle RecordFormat::triangle(const std::byte* record) const {
   GridTriangle triangle;
-  triangle.colours.fill(kAlbedo);
+  triangle.colours.fill(colours ? 0 : kAlbedo);
   triangle.normals.fill(0);
-  getNext(triangle.corners, record);
-  if (colours) getNext(triangle.colours, record);
+  std::array<uint32_t, 9> words;
+  getNext(words, record);
+  for (int i = 0; i < 9; ++i) {
+    triangle.corners[i / 3][i % 3] = static_cast<int32_t>(words[i] & kCoordinateMask);
+    if (colours) triangle.colours[i / 3] |= words[i] >> 24 << 8 * (i % 3);
+  }
   if (normals) getNext(triangle.normals, record);
   return triangle;
 }

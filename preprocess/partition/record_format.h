@@ -10,17 +10,21 @@
 namespace farcell {
 
 using Corners = std::array<GridPoint, 3>;
-inline constexpr size_t kCornersBytes = sizeof(Corners);  // 36
 
-// A record: 3 corners, then 3 colours, 3 normals and a TriangleTexture where the format has them. 36 to 88 bytes.
+// A record: nine words, the coordinates of the corners one after the other in their low 24 bits and a channel of that
+// corner's colour - red, green, blue with x, y, z - in the others; then three normals and a TriangleTexture where the
+// format has them. 36 to 76 bytes. Coordinates are below 2^24.
+inline constexpr size_t kCornersBytes = 9 * sizeof(uint32_t);
+inline constexpr uint32_t kCoordinateMask = 0xffffff;
+static_assert(kMaxGridBits <= 24);
+
 struct RecordFormat {
   bool colours = false;
   bool normals = false;
   bool textures = false;
 
   size_t bytes() const {
-    return kCornersBytes + (colours ? sizeof(GridTriangle::colours) : 0) +
-           (normals ? sizeof(GridTriangle::normals) : 0) + (textures ? sizeof(TriangleTexture) : 0);
+    return kCornersBytes + (normals ? sizeof(GridTriangle::normals) : 0) + (textures ? sizeof(TriangleTexture) : 0);
   }
   void put(const GridTriangle& triangle, const TriangleTexture& texture, std::byte* record) const;
   // A channel that is left out: kDefaultAlbedo, no normals, no texture.
@@ -30,8 +34,10 @@ struct RecordFormat {
 };
 
 inline Corners cornersOf(const std::byte* record) {
+  std::array<uint32_t, 9> words;
+  std::memcpy(words.data(), record, kCornersBytes);
   Corners corners;
-  std::memcpy(corners.data(), record, kCornersBytes);
+  for (int i = 0; i < 9; ++i) corners[i / 3][i % 3] = static_cast<int32_t>(words[i] & kCoordinateMask);
   return corners;
 }
 

@@ -37,7 +37,8 @@ Result<> writeMeasure(const std::filesystem::path& file, const MeshMeasure& meas
   return writer.commit(file);
 }
 
-// Where positions come to lie on a grid: the same points as gridFromWorld, without a call for each.
+// Where positions come to lie on a grid: the same points as gridFromWorld, without a call for each. The root cube's last
+// plane, which no model touches, is left out: a record has no room for it.
 class Gridding {
  public:
   explicit Gridding(const Grid& grid)
@@ -46,7 +47,7 @@ class Gridding {
     GridPoint result;
     for (int axis = 0; axis < 3; ++axis) {
       const double value = (point[axis] - origin_[axis]) / side_ * steps_ + 0.5;
-      result[axis] = static_cast<int32_t>(std::min(std::max(value, 0.0), steps_));
+      result[axis] = static_cast<int32_t>(std::min(std::max(value, 0.0), steps_ - 1));
     }
     return result;
   }
@@ -68,7 +69,7 @@ TriangleTexture textureOf(const InputTriangle& triangle) {
 // The input's looks join its corners.
 void putLooks(const InputTriangle& input, const RecordFormat& format, GridTriangle triangle, std::byte* record) {
   for (int k = 0; k < 3; ++k) {
-    if (format.colours) triangle.colours[k] = input.colours[k] & 0xffffff;
+    triangle.colours[k] = format.colours ? input.colours[k] : 0;
     if (format.normals) triangle.normals[k] = packNormal(input.normals[k]);
   }
   format.put(triangle, format.textures ? textureOf(input) : TriangleTexture{}, record);
