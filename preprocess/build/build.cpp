@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -28,6 +29,15 @@ using Samplers = std::vector<std::unique_ptr<TextureSampler>>;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Pages that the system gives are zeroed, one fault each: a fifth of all the time of a build. What a job frees is kept
+// for the next, as far as the ceiling has room for that on every thread.
+void keepFreedMemory(uint64_t memoryBytes, int threads) {
+  constexpr uint64_t kLeast = uint64_t{4} << 20, kMost = uint64_t{64} << 20;
+  const uint64_t kept = std::clamp(memoryBytes / 8 / static_cast<uint64_t>(threads), kLeast, kMost);
+  ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(kept));
+  ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(kept / 2));
 }
 
 // One for each thread; nulls when the mesh has no textures.
@@ -439,6 +449,7 @@ class Build {
 
 Result<BuildResult> buildPack(std::span<const std::filesystem::path> meshes, const std::filesystem::path& pack,
                               const BuildOptions& options, Progress& progress) {
+  keepFreedMemory(options.memoryBytes, threadCount(options.threads));
   return Build(meshes, pack, options, progress).run();
 }
 
