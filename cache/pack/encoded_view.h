@@ -25,8 +25,9 @@ struct EncodedView {
   bool operator==(const EncodedView&) const = default;
 };
 
-// Deterministic, and alone of all views: what a page holds besides does not matter. Expects a valid image (CHECK).
-EncodedView encodeView(const ViewImage& image);
+// Deterministic, and alone of all views: what a page holds besides does not matter. `maxError` as in
+// BuildSettings::viewError; 0: what is decoded equals the image. Expects a valid image (CHECK).
+EncodedView encodeView(const ViewImage& image, int maxError = 0);
 
 struct EncodedViewPage {
   std::vector<std::byte> bytes;

@@ -182,7 +182,7 @@ class KnownStreams {
 
 }  // namespace
 
-EncodedView encodeView(const ViewImage& image) {
+EncodedView encodeView(const ViewImage& image, int maxError) {
   FARCELL_CHECK((image.width == 0) == (image.height == 0));
   FARCELL_CHECK(std::max(image.x0 + image.width, image.y0 + image.height) <= kMaxImageSize);
   FARCELL_CHECK(std::isfinite(image.depthMin) && std::isfinite(image.depthMax) && image.depthMin <= image.depthMax);
@@ -200,7 +200,7 @@ EncodedView encodeView(const ViewImage& image) {
   FARCELL_CHECK(decodedBytes <= UINT32_MAX);
   encoded.decodedBytes = static_cast<uint32_t>(decodedBytes);
   for (const Arrangement arrangement : {Arrangement::sparse, Arrangement::plain}) {
-    const ArrangedView arranged = arrangedFromView(image, planeCount, arrangement);
+    const ArrangedView arranged = arrangedFromView(image, planeCount, arrangement, maxError);
     encoded.coding = arranged.coding;
     encoded.stream = zlibCompress(arranged.bytes, kViewZlibLevel);
     // A reader believes no more of a sparse view than a plain stream of its size could hold.

@@ -1,4 +1,4 @@
-// One view as bytes that deflate well. The transforms are exact: nothing is lost.
+// One view as bytes that deflate well. The transforms are exact: nothing is lost but what is asked for.
 //
 // Colour follows coverage: it is coded where coverage is not 0, and predicted through it. Where a surface has one
 // colour and is lit differently, red and blue follow green by a factor; else they follow it by about 1.
@@ -34,9 +34,11 @@ struct ArrangedView {
   ViewCoding coding = 0;
 };
 
-// Chooses a filter for each plane. A view with values where a sparse one has none is arranged plainly.
-// REQUIRES: sizes of rgba, depth and normal agree with width * height.
-ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted);
+// Chooses a filter for each plane. A view with values where a sparse one has none is arranged plainly. With a maxError
+// above 0 no channel is farther than that from the view's: coverage of 0 and 255 and unknown depth stay, others do not
+// become these, and a colour stays within its coverage.
+// REQUIRES: sizes of rgba, depth and normal agree with width * height; maxError is 0 to kMaxViewError.
+ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted, int maxError);
 
 // Fills view.rgba, depth and normal. corrupt when there are too few or too many bytes. REQUIRES: codingValid().
 Result<> viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount, ViewCoding coding, ViewImage& view);
