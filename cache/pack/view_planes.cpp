@@ -9,6 +9,7 @@
 
 #include "cache/base/check.h"
 #include "cache/pack/bytes.h"
+#include "cache/pack/zlib_stream.h"
 #include "cache/schema/model.h"
 
 namespace farcell {
@@ -19,6 +20,7 @@ enum Plane : uint32_t { kAlpha = 0, kGreen = 1, kRed = 2, kBlue = 3, kDepth = 4,
 constexpr uint32_t kBitsPerFilter = 4;
 constexpr uint32_t kFilterMask = (1u << kBitsPerFilter) - 1;
 constexpr uint32_t kArrangementShift = 28;
+constexpr int kTrialZlibLevel = 8;       // 12: 0.2 % fewer bytes of a repacked pack, three times the time
 constexpr uint32_t kUnitFactorBits = 7;  // a factor of 128: as much as green
 
 using Bytes = std::vector<uint8_t>;
@@ -141,14 +143,17 @@ void addGreen(std::span<uint8_t> plane, std::span<const uint8_t> green, uint8_t 
 
 struct ExtractedView {
   Planes planes;  // the channels
-  std::array<uint8_t, 2> factors;
+  ColourFactors factors;
 };
 
-ExtractedView extracted(const ViewImage& view, uint32_t planeCount, PlaneSize size) {
+ExtractedView extracted(const ViewImage& view, uint32_t planeCount, PlaneSize size,
+                        const std::optional<ColourFactors>& factors) {
   ExtractedView result{Planes(planeCount, size.texels()), {}};
   Planes& planes = result.planes;
   splitColours(view.rgba, planes);
-  result.factors = {factorOf(planes[kRed], planes[kGreen], size), factorOf(planes[kBlue], planes[kGreen], size)};
+  result.factors = factors ? *factors
+                           : ColourFactors{factorOf(planes[kRed], planes[kGreen], size),
+                                           factorOf(planes[kBlue], planes[kGreen], size)};
   std::copy(view.depth.begin(), view.depth.end(), planes[kDepth].begin());
   for (uint32_t k = 0; kNormalX + k < planeCount; ++k)
     for (size_t i = 0; i < size.texels(); ++i) planes[kNormalX + k][i] = view.normal[2 * i + k];
@@ -209,12 +214,13 @@ ChannelBounds boundsOf(uint32_t index, std::span<const uint8_t> channel, std::sp
 // The planes of a view on their way to bytes: channel by channel, each after those that it follows.
 class PlaneCoder {
  public:
-  PlaneCoder(ExtractedView view, uint32_t planeCount, PlaneSize size, Arrangement arrangement, int maxError)
+  PlaneCoder(ExtractedView view, uint32_t planeCount, PlaneSize size, Arrangement arrangement,
+             const ArrangeOptions& options)
       : planes_(std::move(view.planes)),
         factors_(view.factors),
         size_(size),
         sparse_(arrangement == Arrangement::sparse),
-        maxError_(maxError),
+        options_(options),
         all_(size.texels(), 255) {
     if (sparse_) masks_ = Masks(planes_[kAlpha], size);
     out_.bytes.reserve(arrangedBytesLimit(planeCount, size.texels()));
@@ -228,20 +234,22 @@ class PlaneCoder {
     const Mask mask = masks_.of(index).empty() ? Mask(all_) : masks_.of(index);
     if (!zeroOutside(plane, mask)) return false;
     std::optional<ChannelBounds> bounds;
-    if (maxError_ > 0) bounds = boundsOf(index, plane, planes_[kAlpha], maxError_);
+    if (options_.maxError > 0) bounds = boundsOf(index, plane, planes_[kAlpha], options_.maxError);
     if (index == kRed || index == kBlue) {
       const uint8_t factor = factors_[index - kRed];
       subtractGreen(plane, planes_[kGreen], factor);
       if (bounds) subtractGreen(bounds->low.span(), planes_[kGreen], factor);
     }
-    PlaneFilter filter = chosenFilter(index, mask);
+    PlaneFilter filter = likely(index, mask);
     if (bounds) move(index, filter, bounds->bounds(), mask);
     uint8_t value = 0;
     if (sparse_ && isConstant(plane, mask, value)) {
       filter = PlaneFilter::constant;
       out_.u8(value);
     } else {
-      append(index, filter, mask);
+      if (options_.triesFilters) filter = smallest(index, mask);
+      const Bytes values = residualsOf(index, filter, mask);
+      out_.append(std::as_bytes(std::span(values)));
     }
     coding_ |= static_cast<uint32_t>(filter) << (kBitsPerFilter * index);
     return true;
@@ -250,8 +258,7 @@ class PlaneCoder {
   ArrangedView finish() { return {std::move(out_.bytes), coding_}; }
 
  private:
-  // That is likely the best.
-  PlaneFilter chosenFilter(uint32_t index, Mask mask) {
+  PlaneFilter likely(uint32_t index, Mask mask) {
     if (index != kGreen) return likelyFilter(planes_[index], mask, size_);
     Bytes whole(size_.texels());  // where a colour is what is predicted
     for (size_t i = 0; i < whole.size(); ++i) whole[i] = planes_[kAlpha][i] == 255 ? 255 : 0;
@@ -259,24 +266,33 @@ class PlaneCoder {
   }
 
   void move(uint32_t index, PlaneFilter filter, PlaneBounds bounds, Mask mask) {
-    const int step = 2 * maxError_ + 1;
+    const int step = 2 * options_.maxError + 1;
     if (index == kGreen)
       moveColours(filter, bounds, step, planes_[kAlpha], mask, size_, planes_[kGreen]);
     else
       moveTexels(filter, bounds, step, mask, size_, planes_[index]);
   }
 
-  void append(uint32_t index, PlaneFilter filter, Mask mask) {
-    const Bytes values = index == kGreen ? colourResiduals(filter, planes_[kGreen], planes_[kAlpha], mask, size_)
-                                         : residuals(filter, planes_[index], mask, size_);
-    out_.append(std::as_bytes(std::span(values)));
+  Bytes residualsOf(uint32_t index, PlaneFilter filter, Mask mask) {
+    return index == kGreen ? colourResiduals(filter, planes_[kGreen], planes_[kAlpha], mask, size_)
+                           : residuals(filter, planes_[index], mask, size_);
+  }
+
+  // The filter whose residuals alone deflate best.
+  PlaneFilter smallest(uint32_t index, Mask mask) {
+    std::array<size_t, static_cast<size_t>(PlaneFilter::constant)> sizes;
+    for (size_t i = 0; i < sizes.size(); ++i) {
+      const Bytes values = residualsOf(index, static_cast<PlaneFilter>(i), mask);
+      sizes[i] = zlibCompress(std::as_bytes(std::span(values)), kTrialZlibLevel).size();
+    }
+    return static_cast<PlaneFilter>(std::min_element(sizes.begin(), sizes.end()) - sizes.begin());
   }
 
   Planes planes_;
-  const std::array<uint8_t, 2> factors_;
+  const ColourFactors factors_;
   const PlaneSize size_;
   const bool sparse_;
-  const int maxError_;
+  const ArrangeOptions& options_;
   const Bytes all_;
   Masks masks_;
   ByteWriter out_;
@@ -354,6 +370,11 @@ void joinColours(Planes& planes, std::span<uint8_t> rgba) {
 
 }  // namespace
 
+ColourFactors factorsOfArranged(std::span<const std::byte> bytes) {
+  FARCELL_CHECK(bytes.size() >= 2);
+  return {std::to_integer<uint8_t>(bytes[0]), std::to_integer<uint8_t>(bytes[1])};
+}
+
 bool codingValid(ViewCoding coding, uint32_t planeCount) {
   if (coding >> kArrangementShift > static_cast<uint32_t>(Arrangement::sparse)) return false;
   const bool sparse = arrangementOf(coding) == Arrangement::sparse;
@@ -365,15 +386,16 @@ bool codingValid(ViewCoding coding, uint32_t planeCount) {
   return true;
 }
 
-ArrangedView arrangedFromView(const ViewImage& image, uint32_t planeCount, Arrangement wanted, int maxError) {
+ArrangedView arrangedFromView(const ViewImage& image, uint32_t planeCount, Arrangement wanted,
+                              const ArrangeOptions& options) {
   const PlaneSize size{image.width, image.height};
   FARCELL_CHECK_EQ(image.rgba.size(), 4 * size.texels());
   FARCELL_CHECK_EQ(image.depth.size(), size.texels());
   FARCELL_CHECK_EQ(image.normal.size(), planeCount == kPlanesWithNormals ? 2 * size.texels() : 0);
-  FARCELL_CHECK(maxError >= 0 && maxError <= kMaxViewError);
-  PlaneCoder coder(extracted(image, planeCount, size), planeCount, size, wanted, maxError);
+  FARCELL_CHECK(options.maxError >= 0 && options.maxError <= kMaxViewError);
+  PlaneCoder coder(extracted(image, planeCount, size, options.factors), planeCount, size, wanted, options);
   for (uint32_t i = 0; i < planeCount; ++i)
-    if (!coder.add(i)) return arrangedFromView(image, planeCount, Arrangement::plain, maxError);
+    if (!coder.add(i)) return arrangedFromView(image, planeCount, Arrangement::plain, options);
   return coder.finish();
 }
 
@@ -381,7 +403,7 @@ Result<> viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount,
   const PlaneSize size{view.width, view.height};
   const size_t texels = size.texels();
   ByteReader in(bytes);
-  const std::array<uint8_t, 2> factors{in.u8(), in.u8()};
+  const ColourFactors factors{in.u8(), in.u8()};
   Planes planes(planeCount, texels);
   const auto read = [&](uint32_t i, const Masks& masks) {
     return readPlane(in, i, filterOf(coding, i), planes[kAlpha], masks.of(i), size, planes[i]);

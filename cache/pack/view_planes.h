@@ -4,8 +4,10 @@
 // colour and is lit differently, red and blue follow green by a factor; else they follow it by about 1.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,11 +36,22 @@ struct ArrangedView {
   ViewCoding coding = 0;
 };
 
+// The factors by which red and blue follow green, as stored.
+using ColourFactors = std::array<uint8_t, 2>;
+ColourFactors factorsOfArranged(std::span<const std::byte> bytes);
+
+struct ArrangeOptions {
+  int maxError = 0;           // see below
+  bool triesFilters = false;  // chooses each filter by what deflate makes of it, not by an estimate
+  std::optional<ColourFactors> factors;  // none: those of least squares
+};
+
 // Chooses a filter for each plane. A view with values where a sparse one has none is arranged plainly. With a maxError
 // above 0 no channel is farther than that from the view's: coverage of 0 and 255 and unknown depth stay, others do not
 // become these, and a colour stays within its coverage.
 // REQUIRES: sizes of rgba, depth and normal agree with width * height; maxError is 0 to kMaxViewError.
-ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted, int maxError);
+ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted,
+                              const ArrangeOptions& options);
 
 // Fills view.rgba, depth and normal. corrupt when there are too few or too many bytes. REQUIRES: codingValid().
 Result<> viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount, ViewCoding coding, ViewImage& view);

@@ -163,8 +163,9 @@ void print(const std::vector<NearTotals>& ways) {
                 static_cast<unsigned long long>(way.bytes),
                 static_cast<double>(way.bytes) / static_cast<double>(ways.front().bytes));
     for (const int worst : way.worst) std::printf(",%d", worst);
-    for (const uint64_t squares : way.squares)
-      std::printf(",%.3f", std::sqrt(static_cast<double>(squares) / static_cast<double>(way.texels)));
+    for (size_t channel = 0; channel < way.squares.size(); ++channel)
+      std::printf(",%.3f",
+                  std::sqrt(static_cast<double>(way.squares[channel]) / static_cast<double>(way.texels[channel])));
     std::printf(",%.2f,%.2f\n", way.encodeSeconds, way.decodeSeconds);
   }
 }

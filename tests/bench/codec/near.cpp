@@ -35,8 +35,8 @@ ViewImage roundedView(ViewImage view, int maxError) {
 
 void addErrors(const ViewImage& view, const ViewImage& decoded, NearTotals& totals) {
   for (size_t i = 0; i < view.depth.size(); ++i) {
-    if (view.rgba[4 * i + 3] > 0) ++totals.texels;
     for (size_t channel = 0; channel < 5; ++channel) {
+      if ((channel < 4 ? view.rgba[4 * i + 3] : view.depth[i]) > 0) ++totals.texels[channel];
       const int error =
           channel < 4 ? view.rgba[4 * i + channel] - decoded.rgba[4 * i + channel] : view.depth[i] - decoded.depth[i];
       totals.worst[channel] = std::max(totals.worst[channel], std::abs(error));

@@ -18,8 +18,8 @@ struct NearTotals {
   int maxError;
   NearWay way;
   uint64_t bytes = 0;
-  uint64_t texels = 0;                   // covered
-  std::array<int, 5> worst = {};         // of R, G, B, A, depth
+  std::array<uint64_t, 5> texels = {};  // covered, or of known depth; of R, G, B, A, depth
+  std::array<int, 5> worst = {};
   std::array<uint64_t, 5> squares = {};  // of their errors
   double encodeSeconds = 0;
   double decodeSeconds = 0;

@@ -214,6 +214,44 @@ TEST(NearViewCoding, TakesFewerBytesTheMoreErrorItMayHave) {
   }
 }
 
+TEST(SmallerView, HoldsTheSameTexelsInNoMoreBytes) {
+  size_t before = 0, after = 0;
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const ViewPage page = randomPage(seed, seed % 2);
+    for (const ViewImage& view : page.views) {
+      const EncodedView coded = encodeView(view, static_cast<int>(seed % 3));
+      const Result<EncodedView> smaller = smallerView(coded);
+      ASSERT_TRUE(smaller) << smaller.error().message;
+      EXPECT_EQ(plainlyDecoded(viewPageOf({&*smaller, 1}).bytes, 0), plainlyDecoded(viewPageOf({&coded, 1}).bytes, 0));
+      EXPECT_LE(smaller->stream.size(), coded.stream.size());
+      before += coded.stream.size();
+      after += smaller->stream.size();
+    }
+  }
+  EXPECT_LT(after, before * 99 / 100);
+}
+
+TEST(SmallerView, KeepsTheFactorsThatErrorWasMadeFor) {
+  std::mt19937 random(13);
+  const EncodedView coded = encodeView(bakedLike(random, 0, false), 3);
+  const EncodedView smaller = smallerView(coded).value();
+  EXPECT_LT(smaller.stream.size(), coded.stream.size());
+  const auto firstTwo = [](const EncodedView& view) {
+    Bytes bytes(5 * size_t{view.width} * view.height + 2);
+    EXPECT_TRUE(zlibDecompressUpTo(view.stream, bytes).has_value());
+    return std::pair(bytes[0], bytes[1]);
+  };
+  EXPECT_EQ(firstTwo(smaller), firstTwo(coded));
+}
+
+TEST(SmallerView, RefusesAStreamThatDoesNotDecode) {
+  std::mt19937 random(14);
+  EncodedView coded = encodeView(bakedLike(random, 0, false));
+  coded.stream.back() ^= std::byte{1};
+  EXPECT_EQ(smallerView(coded).error().kind, ErrorKind::corrupt);
+}
+
 TEST(ViewPageCoding, HoldsNoViewsAndViewsOfNothing) {
   ViewPage page;
   EXPECT_EQ(decode(encodeViewPage(page), page), page);
