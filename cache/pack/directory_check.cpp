@@ -88,6 +88,8 @@ class Checker {
     if (s.leafTriangles < 1) return wrongModel("at least 1 triangle a leaf", fmt::format("{}", s.leafTriangles));
     if (s.maxLevel < 0 || s.maxLevel > kMaxLevel || s.fixedLevel < -1 || s.fixedLevel > kMaxLevel)
       return wrongModel(fmt::format("levels up to {}", kMaxLevel), fmt::format("{} and {}", s.maxLevel, s.fixedLevel));
+    if (s.viewError < 0 || s.viewError > kMaxViewError)
+      return wrongModel(fmt::format("an error of views of 0 to {}", kMaxViewError), fmt::format("{}", s.viewError));
     if (s.up > UpAxis::z) return wrongModel("an up axis of 0 to 2", fmt::format("{}", static_cast<uint32_t>(s.up)));
     if (!std::isfinite(s.metresPerUnit) || !(s.metresPerUnit > 0))
       return wrongModel("a unit above 0 metres", fmt::format("{}", s.metresPerUnit));

@@ -29,7 +29,8 @@ void write(ByteWriter& out, const BuildSettings& settings) {
                           settings.maxLevel, settings.fixedLevel})
     out.i32(value);
   out.u32(static_cast<uint32_t>(settings.up));
-  out.u32(settings.bakeNormals ? 1 : 0);
+  out.u16(settings.bakeNormals ? 1 : 0);
+  out.u16(static_cast<uint16_t>(settings.viewError));
   out.f64(settings.metresPerUnit);
   out.u32(static_cast<uint32_t>(settings.simplifier));
   out.u32(static_cast<uint32_t>(settings.budgetRule));
@@ -39,7 +40,7 @@ void write(ByteWriter& out, const BuildSettings& settings) {
 
 // Both 0 and 1 are the only values a flag may have: anything else could not be written back.
 bool readFlag(ByteReader& in, bool& valid) {
-  const uint32_t value = in.u32();
+  const uint16_t value = in.u16();
   valid = valid && value <= 1;
   return value == 1;
 }
@@ -51,6 +52,7 @@ BuildSettings readSettings(ByteReader& in, bool& valid) {
     *value = in.i32();
   settings.up = static_cast<UpAxis>(in.u32());
   settings.bakeNormals = readFlag(in, valid);
+  settings.viewError = in.u16();
   settings.metresPerUnit = in.f64();
   settings.simplifier = static_cast<Simplifier>(in.u32());
   settings.budgetRule = static_cast<BudgetRule>(in.u32());

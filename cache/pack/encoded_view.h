@@ -25,8 +25,13 @@ struct EncodedView {
   bool operator==(const EncodedView&) const = default;
 };
 
-// Deterministic, and alone of all views: what a page holds besides does not matter. Expects a valid image (CHECK).
-EncodedView encodeView(const ViewImage& image);
+// Deterministic, and alone of all views: what a page holds besides does not matter. `maxError` as in
+// BuildSettings::viewError; 0: what is decoded equals the image. Expects a valid image (CHECK).
+EncodedView encodeView(const ViewImage& image, int maxError = 0);
+
+// The same texels in fewer bytes if there is a way: filters are tried and deflate takes its time, some twenty times
+// that of encodeView. What it cannot make smaller it gives back. REQUIRES: a view of viewsOfPage.
+Result<EncodedView> smallerView(const EncodedView& view);
 
 struct EncodedViewPage {
   std::vector<std::byte> bytes;

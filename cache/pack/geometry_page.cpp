@@ -128,6 +128,17 @@ std::vector<std::byte> encodeGeometryPage(const GeometryPage& page) {
   return std::move(out.bytes);
 }
 
+Result<std::vector<std::byte>> smallerGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits) {
+  FARCELL_ASSIGN(const Header header, readHeader(bytes, limits));
+  std::vector<std::byte> payload(header.payloadBytes);
+  FARCELL_TRY(zlibDecompress(bytes.subspan(kPageHeaderBytes), payload));
+  const std::vector<std::byte> stream = zlibCompress(payload, kSlowestZlibLevel);
+  ByteWriter out;
+  out.append(bytes.first(kPageHeaderBytes));
+  out.append(kPageHeaderBytes + stream.size() < bytes.size() ? stream : bytes.subspan(kPageHeaderBytes));
+  return std::move(out.bytes);
+}
+
 Result<GeometryPage> decodeGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits) {
   FARCELL_ASSIGN(const Header header, readHeader(bytes, limits));
   std::vector<std::byte> payload(header.payloadBytes);

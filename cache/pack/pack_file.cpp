@@ -95,9 +95,8 @@ Result<PackFile> PackFile::open(const std::filesystem::path& path) {
   return PackFile(std::move(file), std::move(directory), std::move(viewpoints));
 }
 
-// The stored bytes, whose checksum is right.
-Result<std::vector<std::byte>> PackFile::readPage(uint32_t page, PageKind kind) const {
-  FARCELL_CHECK(page < directory_.pages.size() && directory_.pages[page].kind == kind);
+Result<std::vector<std::byte>> PackFile::readStored(uint32_t page) const {
+  FARCELL_CHECK(page < directory_.pages.size());
   const PageRecord& record = directory_.pages[page];
   FARCELL_ASSIGN(std::vector<std::byte> bytes, readBytes(file_, record.offsetBytes, record.storedBytes));
   const uint64_t checksum = hashBytes(bytes);
@@ -107,8 +106,9 @@ Result<std::vector<std::byte>> PackFile::readPage(uint32_t page, PageKind kind) 
 }
 
 Result<GeometryPage> PackFile::readGeometry(uint32_t page) const {
-  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readPage(page, PageKind::geometry));
+  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readStored(page));
   const PageRecord& record = directory_.pages[page];
+  FARCELL_CHECK(record.kind == PageKind::geometry);
   const CellRecord& cell = directory_.cells[record.cell];
   const uint32_t maxCoordinate = 1u << (directory_.model.grid.bits - static_cast<int>(cell.key.level));
   Result<GeometryPage> decoded = decodeGeometryPage(bytes, {maxCoordinate, record.decodedBytes});
@@ -121,8 +121,9 @@ Result<GeometryPage> PackFile::readGeometry(uint32_t page) const {
 }
 
 Result<ViewPage> PackFile::readViews(uint32_t page) const {
-  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readPage(page, PageKind::views));
+  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readStored(page));
   const PageRecord& record = directory_.pages[page];
+  FARCELL_CHECK(record.kind == PageKind::views);
   const ViewLimits limits{static_cast<uint32_t>(directory_.model.settings.views),
                           static_cast<uint32_t>(directory_.model.settings.imageSize), record.decodedBytes};
   Result<ViewPage> decoded = decodeViewPage(bytes, limits);

@@ -52,6 +52,8 @@ class PackFile {
   uint64_t sizeBytes() const { return file_.sizeBytes(); }
   const Directory& directory() const { return directory_; }
 
+  // A page as it is stored; its checksum is right.
+  Result<std::vector<std::byte>> readStored(uint32_t page) const;
   // Reads, checks and decodes. REQUIRES: the page is of that kind. The page agrees with its record, its cell (number of
   // triangles, positions inside the content, group of the views) and the model (colours, normals), or the result is
   // corrupt.
@@ -66,7 +68,6 @@ class PackFile {
  private:
   PackFile(InputFile file, Directory directory, Viewpoints viewpoints)
       : file_(std::move(file)), directory_(std::move(directory)), viewpoints_(std::move(viewpoints)) {}
-  Result<std::vector<std::byte>> readPage(uint32_t page, PageKind kind) const;
   InputFile file_;
   Directory directory_;
   Viewpoints viewpoints_;

@@ -41,18 +41,6 @@ struct ViewPage {
   bool operator==(const ViewPage&) const = default;
 };
 
-// The same triangles in an order of strips, which takes few bytes and draws fast: each triangle keeps its three vertices
-// and its winding but may start at another corner; vertices no triangle uses are dropped. Deterministic. Coding itself
-// keeps the order it is given: call this first. REQUIRES: indices in range, three a triangle.
-GeometryPage optimisedOrder(const GeometryPage& page);
-
-// Coding is deterministic. Encoders expect valid input (CHECK).
-std::vector<std::byte> encodeGeometryPage(const GeometryPage& page);
-std::vector<std::byte> encodeViewPage(const ViewPage& page);
-// What the decoded page occupies in memory: PageRecord::decodedBytes.
-uint32_t decodedSizeBytes(const GeometryPage& page);
-uint32_t decodedSizeBytes(const ViewPage& page);
-
 // What a decoder may believe: nothing larger is allocated, whatever the bytes claim.
 struct GeometryLimits {
   uint32_t maxCoordinate;  // 2^(bits-level)
@@ -63,6 +51,21 @@ struct ViewLimits {
   uint32_t imageSize;
   uint64_t maxDecodedBytes;
 };
+
+// The same triangles in an order of strips, which takes few bytes and draws fast: each triangle keeps its three
+// vertices and its winding but may start at another corner; vertices no triangle uses are dropped. Deterministic.
+// Coding itself keeps the order it is given: call this first. REQUIRES: indices in range, three a triangle.
+GeometryPage optimisedOrder(const GeometryPage& page);
+
+// Coding is deterministic. Encoders expect valid input (CHECK).
+std::vector<std::byte> encodeGeometryPage(const GeometryPage& page);
+std::vector<std::byte> encodeViewPage(const ViewPage& page);
+// The same page in fewer bytes if deflate finds them when it takes its time; else `bytes`.
+Result<std::vector<std::byte>> smallerGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits);
+// What the decoded page occupies in memory: PageRecord::decodedBytes.
+uint32_t decodedSizeBytes(const GeometryPage& page);
+uint32_t decodedSizeBytes(const ViewPage& page);
+
 // Decoders trust nothing: a wrong byte is an error of kind corrupt (without a path: the caller adds it).
 Result<GeometryPage> decodeGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits);
 Result<ViewPage> decodeViewPage(std::span<const std::byte> bytes, const ViewLimits& limits);

@@ -77,6 +77,25 @@ uint8_t unmultiplied(uint8_t product, uint8_t alpha) {
   return static_cast<uint8_t>(std::min<uint64_t>(255, dividend * kReciprocals[alpha] >> kReciprocalBits));
 }
 
+// Chooses residuals that are multiples of a step.
+class Stepper {
+ public:
+  explicit Stepper(int step) {
+    for (int residual = -128; residual < 128; ++residual)
+      toMultiple_[static_cast<uint8_t>(residual)] = static_cast<uint8_t>(((-residual) % step + step) % step);
+  }
+  // The value of `low` to `low + room` whose residual is such a multiple; of none, the one nearest to the prediction.
+  uint8_t value(uint8_t low, uint8_t room, uint8_t prediction) const {
+    const auto residual = static_cast<uint8_t>(low - prediction);
+    const uint8_t more = toMultiple_[residual];
+    const uint8_t end = residual < 128 ? uint8_t{0} : room;
+    return static_cast<uint8_t>(low + (more <= room ? more : end));
+  }
+
+ private:
+  std::array<uint8_t, 256> toMultiple_{};  // what a residual lacks to the next multiple
+};
+
 constexpr size_t kChunk = 8;  // texels of a 64-bit word
 
 uint64_t load(const uint8_t* bytes) {
@@ -243,6 +262,28 @@ std::vector<uint8_t> colourResiduals(PlaneFilter filter, std::span<const uint8_t
   });
   result.resize(stored);
   return result;
+}
+
+void moveTexels(PlaneFilter filter, PlaneBounds bounds, int step, std::span<const uint8_t> mask, PlaneSize size,
+                std::span<uint8_t> plane) {
+  const Stepper stepper(step);
+  withPrediction(filter, [&](const auto& predict) {
+    walk(predict, size, [&](size_t i, uint8_t prediction) {
+      if (mask[i] == 0) return prediction;
+      return plane[i] = stepper.value(bounds.low[i], bounds.room[i], prediction);
+    });
+  });
+}
+
+void moveColours(PlaneFilter filter, PlaneBounds bounds, int step, std::span<const uint8_t> alpha,
+                 std::span<const uint8_t> mask, PlaneSize size, std::span<uint8_t> colour) {
+  const Stepper stepper(step);
+  withPrediction(filter, [&](const auto& predict) {
+    walk(predict, size, [&](size_t i, uint8_t prediction) {
+      if (mask[i] != 0) colour[i] = stepper.value(bounds.low[i], bounds.room[i], multiplied(prediction, alpha[i]));
+      return alpha[i] != 0 ? unmultiplied(colour[i], alpha[i]) : prediction;
+    });
+  });
 }
 
 void undoFilter(PlaneFilter filter, std::span<uint8_t> plane, PlaneSize size) {

@@ -33,6 +33,19 @@ std::vector<uint8_t> residuals(PlaneFilter filter, std::span<const uint8_t> plan
 std::vector<uint8_t> colourResiduals(PlaneFilter filter, std::span<const uint8_t> colour,
                                      std::span<const uint8_t> alpha, std::span<const uint8_t> mask, PlaneSize size);
 
+// What the texels of a plane may become: any of `low` to `low` + `room`, modulo 256.
+struct PlaneBounds {
+  std::span<const uint8_t> low;
+  std::span<const uint8_t> room;
+};
+
+// Moves the stored texels inside their bounds so that few different residuals are left: multiples of `step` where one
+// is in reach, and each texel is predicted from those before it as they were moved. `room` is below `step`.
+void moveTexels(PlaneFilter filter, PlaneBounds bounds, int step, std::span<const uint8_t> mask, PlaneSize size,
+                std::span<uint8_t> plane);
+void moveColours(PlaneFilter filter, PlaneBounds bounds, int step, std::span<const uint8_t> alpha,
+                 std::span<const uint8_t> mask, PlaneSize size, std::span<uint8_t> colour);
+
 // Residuals, 0 where nothing is stored, to texels; texels that are not stored keep their prediction, of colours 0.
 void undoFilter(PlaneFilter filter, std::span<uint8_t> plane, PlaneSize size);
 void undoColourFilter(PlaneFilter filter, std::span<uint8_t> colour, std::span<const uint8_t> alpha, PlaneSize size);

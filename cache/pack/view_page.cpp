@@ -180,9 +180,7 @@ class KnownStreams {
   std::multimap<uint64_t, StreamPlace> places_;
 };
 
-}  // namespace
-
-EncodedView encodeView(const ViewImage& image) {
+EncodedView encoded(const ViewImage& image, const ArrangeOptions& options, int zlibLevel) {
   FARCELL_CHECK((image.width == 0) == (image.height == 0));
   FARCELL_CHECK(std::max(image.x0 + image.width, image.y0 + image.height) <= kMaxImageSize);
   FARCELL_CHECK(std::isfinite(image.depthMin) && std::isfinite(image.depthMax) && image.depthMin <= image.depthMax);
@@ -200,13 +198,29 @@ EncodedView encodeView(const ViewImage& image) {
   FARCELL_CHECK(decodedBytes <= UINT32_MAX);
   encoded.decodedBytes = static_cast<uint32_t>(decodedBytes);
   for (const Arrangement arrangement : {Arrangement::sparse, Arrangement::plain}) {
-    const ArrangedView arranged = arrangedFromView(image, planeCount, arrangement);
+    const ArrangedView arranged = arrangedFromView(image, planeCount, arrangement, options);
     encoded.coding = arranged.coding;
-    encoded.stream = zlibCompress(arranged.bytes, kViewZlibLevel);
+    encoded.stream = zlibCompress(arranged.bytes, zlibLevel);
     // A reader believes no more of a sparse view than a plain stream of its size could hold.
     if (decodedBytes <= kMaxZlibRatio * encoded.stream.size()) break;
   }
   return encoded;
+}
+
+}  // namespace
+
+EncodedView encodeView(const ViewImage& image, int maxError) {
+  return encoded(image, {.maxError = maxError, .factors = {}}, kViewZlibLevel);
+}
+
+Result<EncodedView> smallerView(const EncodedView& view) {
+  if (view.decodedBytes == 0) return view;
+  std::vector<std::byte> arranged;
+  FARCELL_ASSIGN(const ViewImage image, decodeStream(view.stream, view, arranged));
+  // With the factors it has: a view whose residuals were made few by error is smaller with no others.
+  EncodedView smaller =
+      encoded(image, {.triesFilters = true, .factors = factorsOfArranged(arranged)}, kSlowestZlibLevel);
+  return smaller.stream.size() < view.stream.size() ? smaller : view;
 }
 
 EncodedViewPage viewPageOf(std::span<const EncodedView> views) {

@@ -1,11 +1,13 @@
-// One view as bytes that deflate well. The transforms are exact: nothing is lost.
+// One view as bytes that deflate well. The transforms are exact: nothing is lost but what is asked for.
 //
 // Colour follows coverage: it is coded where coverage is not 0, and predicted through it. Where a surface has one
 // colour and is lit differently, red and blue follow green by a factor; else they follow it by about 1.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,9 +36,22 @@ struct ArrangedView {
   ViewCoding coding = 0;
 };
 
-// Chooses a filter for each plane. A view with values where a sparse one has none is arranged plainly.
-// REQUIRES: sizes of rgba, depth and normal agree with width * height.
-ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted);
+// The factors by which red and blue follow green, as stored.
+using ColourFactors = std::array<uint8_t, 2>;
+ColourFactors factorsOfArranged(std::span<const std::byte> bytes);
+
+struct ArrangeOptions {
+  int maxError = 0;           // see below
+  bool triesFilters = false;  // chooses each filter by what deflate makes of it, not by an estimate
+  std::optional<ColourFactors> factors;  // none: those of least squares
+};
+
+// Chooses a filter for each plane. A view with values where a sparse one has none is arranged plainly. With a maxError
+// above 0 no channel is farther than that from the view's: coverage of 0 and 255 and unknown depth stay, others do not
+// become these, and a colour stays within its coverage.
+// REQUIRES: sizes of rgba, depth and normal agree with width * height; maxError is 0 to kMaxViewError.
+ArrangedView arrangedFromView(const ViewImage& view, uint32_t planeCount, Arrangement wanted,
+                              const ArrangeOptions& options);
 
 // Fills view.rgba, depth and normal. corrupt when there are too few or too many bytes. REQUIRES: codingValid().
 Result<> viewFromArranged(std::span<const std::byte> bytes, uint32_t planeCount, ViewCoding coding, ViewImage& view);

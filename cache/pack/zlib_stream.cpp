@@ -10,8 +10,6 @@
 namespace farcell {
 namespace {
 
-constexpr int kMaxLevel = 12;
-
 struct FreeCompressor {
   void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
@@ -21,8 +19,8 @@ struct FreeDecompressor {
 
 // A compressor's tables are large: each thread keeps its own.
 libdeflate_compressor* compressorOf(int level) {
-  FARCELL_CHECK(level >= 1 && level <= kMaxLevel);
-  thread_local std::array<std::unique_ptr<libdeflate_compressor, FreeCompressor>, kMaxLevel + 1> compressors;
+  FARCELL_CHECK(level >= 1 && level <= kSlowestZlibLevel);
+  thread_local std::array<std::unique_ptr<libdeflate_compressor, FreeCompressor>, kSlowestZlibLevel + 1> compressors;
   auto& compressor = compressors[static_cast<size_t>(level)];
   if (!compressor) compressor.reset(libdeflate_alloc_compressor(level));
   FARCELL_CHECK(compressor != nullptr);

@@ -14,6 +14,7 @@ namespace farcell {
 inline constexpr uint64_t kMaxZlibRatio = 1032;
 
 // level: 1 (fast) to 12 (small), as in libdeflate.
+inline constexpr int kSlowestZlibLevel = 12;
 std::vector<std::byte> zlibCompress(std::span<const std::byte> raw, int level);
 
 // Fills `raw` exactly from the whole of `stream`; corrupt when the stream is damaged, shorter or longer.

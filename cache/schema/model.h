@@ -25,6 +25,8 @@ enum class BudgetRule : uint32_t {
   triangles = 1,  // cells of most triangles: the rule of the 2010 paper
 };
 
+inline constexpr int kMaxViewError = 8;
+
 // Everything that decides a pack's content, besides the input itself.
 struct BuildSettings {
   int views = 42;             // size of the viewpoint set, see viewpoints.h
@@ -36,6 +38,7 @@ struct BuildSettings {
   UpAxis up = UpAxis::z;
   double metresPerUnit = 1;
   bool bakeNormals = false;  // views keep a prefiltered normal beside the lit colour
+  int viewError = 0;  // a view's channels are this near to what was baked, in 255ths: 0 (lossless)..kMaxViewError
   Simplifier simplifier = Simplifier::collapse;
   BudgetRule budgetRule = BudgetRule::worth;
   uint64_t packBudgetBytes = 0;  // 0: no limit

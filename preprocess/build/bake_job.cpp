@@ -123,7 +123,7 @@ class Batch {
     const ViewImage image = quantisedView(baked, static_cast<uint32_t>(view), settings_.imageSize);
     ViewCost& cost = baked_.emplace_back(ViewCost{batch_.cell, static_cast<uint32_t>(view)});
     if (image.width == 0) return;
-    views_.push_back(encodeView(image));
+    views_.push_back(encodeView(image, context_.model.settings.viewError));
     cost.bytes = static_cast<uint32_t>(views_.back().stream.size());
     cost.texels = image.width * image.height;
   }

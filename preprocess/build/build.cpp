@@ -143,6 +143,7 @@ Result<> checkSettings(const BuildSettings& settings) {
   FARCELL_TRY(range("leaf-triangles", settings.leafTriangles, 64, 1 << 24));
   FARCELL_TRY(range("max-level", settings.maxLevel, 0, kMaxLevel));
   FARCELL_TRY(range("fixed-level", settings.fixedLevel, -1, settings.maxLevel));
+  FARCELL_TRY(range("view-error", settings.viewError, 0, kMaxViewError));
   if (!(settings.metresPerUnit > 0 && std::isfinite(settings.metresPerUnit)))
     return fail(ErrorKind::invalidArgument, "unit: expected a positive length, found {} m", settings.metresPerUnit);
   return {};

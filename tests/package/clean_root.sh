@@ -26,7 +26,7 @@ set -eux
 test ! -e /usr/bin/c++
 [ "$(farcell --version)" = "farcell $version" ]
 farcell --help
-for page in farcell farcell-generate farcell-build farcell-batch farcell-info farcell-verify farcell-render \
+for page in farcell farcell-generate farcell-build farcell-batch farcell-repack farcell-info farcell-verify farcell-render \
   farcell-view farcell-extract farcell-evaluate; do
   man -w "$page"
 done

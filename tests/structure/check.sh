@@ -56,7 +56,7 @@ layers() {
       add("tools/reference/", "top", 19); add("tools/cli/", "top", 20); add("tools/image/", "top", 20)
       add("tools/report/", "top", 20); add("tools/options/", "top", 21)
       add("tools/build/program/", "top", 21)
-      split("build batch info verify render evaluate generate extract view farcell", verbs, " ")
+      split("build batch repack info verify render evaluate generate extract view farcell", verbs, " ")
       for (i in verbs) add("tools/" verbs[i] "/", "top", 22)
       add("tests/", "top", 30)
     }

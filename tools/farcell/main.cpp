@@ -25,6 +25,7 @@ constexpr std::array kVerbs = {
     Verb{"generate", "make a procedural model of any size"},
     Verb{"build", "build a pack from a mesh file"},
     Verb{"batch", "build the packs of a list of data sets"},
+    Verb{"repack", "write a pack again in fewer bytes"},
     Verb{"info", "say what a pack or a mesh file holds"},
     Verb{"verify", "check every byte of a pack"},
     Verb{"render", "draw a picture of a pack"},

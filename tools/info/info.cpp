@@ -43,6 +43,7 @@ Json settingsJson(const BuildSettings& settings) {
           {"maxLevel", settings.maxLevel},
           {"fixedLevel", settings.fixedLevel},
           {"bakeNormals", settings.bakeNormals},
+          {"viewError", settings.viewError},
           {"simplifier", settings.simplifier == Simplifier::openmesh ? "openmesh" : "collapse"},
           {"packBudgetBytes", settings.packBudgetBytes},
           {"budgetRule", settings.budgetRule == BudgetRule::triangles ? "triangles" : "worth"},

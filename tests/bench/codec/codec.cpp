@@ -5,6 +5,7 @@
 // texels or triangles.
 #include <time.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -13,6 +14,7 @@
 #include "cache/pack/pack_file.h"
 #include "preprocess/encode/geometry_page.h"
 #include "tests/bench/codec/coders.h"
+#include "tests/bench/codec/near.h"
 
 namespace farcell {
 namespace {
@@ -102,11 +104,12 @@ Result<bool> measureGeometry(const PackFile& pack, uint32_t index, Totals& total
       page, encodeGeometryPage, [&](const auto& bytes) { return decodeGeometryPage(bytes, limits); }, totals);
 }
 
-// Views in order, of which every so-many-th goes to the other coders.
+// Views in order, of which every so-many-th goes to the other coders and is coded with errors.
 struct Sampled {
   uint64_t every = 0;
   uint64_t met = 0;
   std::vector<CoderTotals> totals = otherCoders();
+  std::vector<NearTotals> near = nearWays();
 };
 
 Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals, Sampled& sampled) {
@@ -115,7 +118,10 @@ Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals, 
   const ViewLimits limits{static_cast<uint32_t>(settings.views), static_cast<uint32_t>(settings.imageSize),
                           decodedSizeBytes(page)};
   for (const ViewImage& view : page.views)
-    if (view.width > 0 && sampled.every > 0 && sampled.met++ % sampled.every == 0) addView(view, sampled.totals);
+    if (view.width > 0 && sampled.every > 0 && sampled.met++ % sampled.every == 0) {
+      addNear(view, sampled.near);
+      addView(view, sampled.totals);
+    }
   return measure(
       page, encodeViewPage, [&](const auto& bytes) { return decodeViewPage(bytes, limits); }, totals);
 }
@@ -148,6 +154,22 @@ void print(const std::vector<CoderTotals>& coders) {
   }
 }
 
+void print(const std::vector<NearTotals>& ways) {
+  std::puts(
+      "\nmaxError,way,bytes,ofLossless,worstR,worstG,worstB,worstA,worstDepth,rmsR,rmsG,rmsB,rmsA,rmsDepth,"
+      "encodeSeconds,decodeSeconds");
+  for (const NearTotals& way : ways) {
+    std::printf("%d,%s,%llu,%.4f", way.maxError, way.way == NearWay::insidePrediction ? "inside" : "before",
+                static_cast<unsigned long long>(way.bytes),
+                static_cast<double>(way.bytes) / static_cast<double>(ways.front().bytes));
+    for (const int worst : way.worst) std::printf(",%d", worst);
+    for (size_t channel = 0; channel < way.squares.size(); ++channel)
+      std::printf(",%.3f",
+                  std::sqrt(static_cast<double>(way.squares[channel]) / static_cast<double>(way.texels[channel])));
+    std::printf(",%.2f,%.2f\n", way.encodeSeconds, way.decodeSeconds);
+  }
+}
+
 Result<> run(const char* path, uint64_t every) {
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(path));
   Totals geometry, views;
@@ -163,7 +185,10 @@ Result<> run(const char* path, uint64_t every) {
   if (geometry.pages > 0) print("geometry", geometry);
   if (views.pages > 0) print("views", views);
   if (geometry.pages > 0) print(mesh);
-  if (sampled.met > 0) print(sampled.totals);
+  if (sampled.met > 0) {
+    print(sampled.near);
+    print(sampled.totals);
+  }
   return {};
 }
 

@@ -96,6 +96,9 @@ TEST_F(LyingDirectory, IsRefusedForItsSettings) {
   for (const int level : {-2, 16})
     expectRefused(
         "fixed level", [&](Directory& d) { d.model.settings.fixedLevel = level; }, "levels");
+  for (const int error : {-1, 9})
+    expectRefused(
+        "view error", [&](Directory& d) { d.model.settings.viewError = error; }, "an error of views");
   expectRefused(
       "up", [](Directory& d) { d.model.settings.up = static_cast<UpAxis>(3); }, "up axis");
   for (const double unit :

@@ -163,6 +163,24 @@ TEST(GeometryPageCoding, IsWhatFormatMdSaysToADecoderOfItsOwn) {
   }
 }
 
+TEST(GeometryPageCoding, SmallerPagesHoldTheSame) {
+  std::mt19937 random(21);
+  for (const uint32_t triangles : {0u, 1u, 3000u}) {
+    const GeometryPage page = randomGeometry(random, 500, triangles, kMaxCoordinate, true, false);
+    const Bytes bytes = encodeGeometryPage(page);
+    Result<Bytes> smaller = smallerGeometryPage(bytes, limitsOf(page));
+    ASSERT_TRUE(smaller) << smaller.error().message;
+    EXPECT_LE(smaller->size(), bytes.size());
+    EXPECT_EQ(inflated(*smaller), inflated(bytes));
+    EXPECT_EQ(decode(*smaller, page), page);
+    if (triangles > 1000) {
+      EXPECT_LT(smaller->size(), bytes.size());
+    }
+    smaller->pop_back();
+    EXPECT_FALSE(smallerGeometryPage(*smaller, limitsOf(page)));
+  }
+}
+
 TEST(GeometryPageCoding, KeepsExtremeWords) {
   GeometryPage page;
   page.positions = {{0, ~0u, 1u << 31}, {~0u, 0, (1u << 31) - 1}, {1u << 31, ~0u, 0}};

@@ -165,6 +165,93 @@ TEST(ViewPageCoding, LetsADecoderOfItsOwnReadEachViewAlone) {
   EXPECT_EQ(filters, (std::set<uint32_t>{0, 1, 2, 3, 4, 5}));
 }
 
+// Of what a view was and what is left of it, as a reader of the option's help would check it.
+void expectNear(const ViewImage& was, const ViewImage& is, int maxError) {
+  ASSERT_EQ(is.rgba.size(), was.rgba.size());
+  ASSERT_EQ(is.normal.size(), was.normal.size());
+  int worst = 0, outsideCoverage = 0, exactChanged = 0;
+  for (size_t i = 0; i < was.depth.size(); ++i) {
+    const uint8_t* const before = &was.rgba[4 * i];
+    const uint8_t* const after = &is.rgba[4 * i];
+    for (size_t k = 0; k < 4; ++k) worst = std::max(worst, std::abs(before[k] - after[k]));
+    worst = std::max(worst, std::abs(was.depth[i] - is.depth[i]));
+    const auto isWhole = [](uint8_t alpha) { return alpha == 0 || alpha == 255; };
+    if ((isWhole(before[3]) || isWhole(after[3])) && before[3] != after[3]) ++exactChanged;
+    if ((was.depth[i] == 0) != (is.depth[i] == 0)) ++exactChanged;
+    for (size_t k = 0; k < 3; ++k)
+      if (before[k] <= before[3] && after[k] > after[3]) ++outsideCoverage;
+  }
+  for (size_t i = 0; i < was.normal.size(); ++i) worst = std::max(worst, std::abs(was.normal[i] - is.normal[i]));
+  EXPECT_LE(worst, maxError);
+  EXPECT_EQ(exactChanged, 0);
+  EXPECT_EQ(outsideCoverage, 0);
+}
+
+TEST(NearViewCoding, KeepsItsBoundAndWhatIsExact) {
+  for (uint32_t seed = 0; seed < 90; ++seed) {
+    SCOPED_TRACE(seed);
+    const int maxError = 1 + static_cast<int>(seed % 8);
+    const ViewPage page = randomPage(seed, seed % 2);
+    for (const ViewImage& view : page.views) {
+      if (view.width == 0) continue;
+      const EncodedView coded = encodeView(view, maxError);
+      EXPECT_EQ(encodeView(view, maxError), coded);
+      const Bytes bytes = viewPageOf({&coded, 1}).bytes;
+      expectNear(view, plainlyDecoded(bytes, 0), maxError);
+    }
+  }
+}
+
+TEST(NearViewCoding, TakesFewerBytesTheMoreErrorItMayHave) {
+  std::mt19937 random(12);
+  const ViewImage view = bakedLike(random, 0, true);
+  size_t before = encodeView(view).stream.size();
+  EXPECT_EQ(encodeView(view, 0), encodeView(view));
+  for (const int maxError : {1, 2, 4, 8}) {
+    const size_t bytes = encodeView(view, maxError).stream.size();
+    EXPECT_LT(bytes, before) << maxError;
+    before = bytes;
+  }
+}
+
+TEST(SmallerView, HoldsTheSameTexelsInNoMoreBytes) {
+  size_t before = 0, after = 0;
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const ViewPage page = randomPage(seed, seed % 2);
+    for (const ViewImage& view : page.views) {
+      const EncodedView coded = encodeView(view, static_cast<int>(seed % 3));
+      const Result<EncodedView> smaller = smallerView(coded);
+      ASSERT_TRUE(smaller) << smaller.error().message;
+      EXPECT_EQ(plainlyDecoded(viewPageOf({&*smaller, 1}).bytes, 0), plainlyDecoded(viewPageOf({&coded, 1}).bytes, 0));
+      EXPECT_LE(smaller->stream.size(), coded.stream.size());
+      before += coded.stream.size();
+      after += smaller->stream.size();
+    }
+  }
+  EXPECT_LT(after, before * 99 / 100);
+}
+
+TEST(SmallerView, KeepsTheFactorsThatErrorWasMadeFor) {
+  std::mt19937 random(13);
+  const EncodedView coded = encodeView(bakedLike(random, 0, false), 3);
+  const EncodedView smaller = smallerView(coded).value();
+  EXPECT_LT(smaller.stream.size(), coded.stream.size());
+  const auto firstTwo = [](const EncodedView& view) {
+    Bytes bytes(5 * size_t{view.width} * view.height + 2);
+    EXPECT_TRUE(zlibDecompressUpTo(view.stream, bytes).has_value());
+    return std::pair(bytes[0], bytes[1]);
+  };
+  EXPECT_EQ(firstTwo(smaller), firstTwo(coded));
+}
+
+TEST(SmallerView, RefusesAStreamThatDoesNotDecode) {
+  std::mt19937 random(14);
+  EncodedView coded = encodeView(bakedLike(random, 0, false));
+  coded.stream.back() ^= std::byte{1};
+  EXPECT_EQ(smallerView(coded).error().kind, ErrorKind::corrupt);
+}
+
 TEST(ViewPageCoding, HoldsNoViewsAndViewsOfNothing) {
   ViewPage page;
   EXPECT_EQ(decode(encodeViewPage(page), page), page);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
 
 #include "cache/base/file.h"
@@ -103,9 +104,56 @@ TEST_F(BuildPack, AnyNumberOfThreadsGivesTheSameBytes) {
   }
 }
 
+// How far apart two views are in any channel; 256 where they do not see the same.
+int distance(const ViewImage& a, const ViewImage& b) {
+  if (a.view != b.view || a.rgba.size() != b.rgba.size() || a.normal.size() != b.normal.size()) return 256;
+  int worst = 0;
+  for (size_t i = 0; i < a.rgba.size(); ++i) worst = std::max(worst, std::abs(a.rgba[i] - b.rgba[i]));
+  for (size_t i = 0; i < a.normal.size(); ++i) worst = std::max(worst, std::abs(a.normal[i] - b.normal[i]));
+  for (size_t i = 0; i < a.depth.size(); ++i) {
+    if ((a.depth[i] == 0) != (b.depth[i] == 0) || (a.rgba[4 * i + 3] == 255) != (b.rgba[4 * i + 3] == 255)) return 256;
+    worst = std::max(worst, std::abs(a.depth[i] - b.depth[i]));
+  }
+  return worst;
+}
+
+TEST_F(BuildPack, ViewsAreNoFartherFromWhatWasBakedThanTheirError) {
+  const auto mesh = write("sphere.obj", sphereObj(20, 3, glm::dvec3(1e6, -2e6, 5)));
+  BuildOptions options = smallLeaves();
+  options.settings.bakeNormals = true;
+  ASSERT_TRUE(build(mesh, "exact.far", options));
+  options.settings.viewError = 3;
+  ASSERT_TRUE(build(mesh, "near.far", options));
+  const auto exact = PackFile::open(directory_ / "exact.far"), near = PackFile::open(directory_ / "near.far");
+  ASSERT_TRUE(exact && near);
+  EXPECT_EQ(near->directory().model.settings.viewError, 3);
+  EXPECT_LT(near->directory().report.impostorBytes, exact->directory().report.impostorBytes * 7 / 10);
+  // Views that bring less than they cost may be left out of one pack and not of the other.
+  const auto viewsOf = [](const PackFile& pack) {
+    std::map<std::pair<uint32_t, uint32_t>, ViewImage> views;
+    for (uint32_t page = 0; page < pack.directory().pages.size(); ++page) {
+      if (pack.directory().pages[page].kind != PageKind::views) continue;
+      const ViewPage decoded = pack.readViews(page).value();
+      for (const ViewImage& view : decoded.views) views[{pack.directory().pages[page].cell, view.view}] = view;
+    }
+    return views;
+  };
+  const auto baked = viewsOf(*exact);
+  int compared = 0, worst = 0;
+  for (const auto& [key, view] : viewsOf(*near)) {
+    const auto other = baked.find(key);
+    if (other == baked.end()) continue;
+    worst = std::max(worst, distance(view, other->second));
+    ++compared;
+  }
+  EXPECT_EQ(worst, 3);
+  EXPECT_GT(compared, 300);
+}
+
 TEST_F(BuildPack, EveryInstructionSetAndMemoryGivesTheSameBytes) {
   const auto mesh = write("sphere.obj", sphereObj(30, 3, glm::dvec3(1e6, -2e6, 5)));
   BuildOptions options = smallLeaves();
+  options.settings.viewError = 1;
   options.threads = 2;
   ASSERT_TRUE(build(mesh, "best.far", options));
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -214,6 +262,8 @@ TEST_F(BuildPack, MeaninglessSettingsAreMisuse) {
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.imageSize = 100; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.samples = 5; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.leafTriangles = 0; }), ErrorKind::invalidArgument);
+  for (const int error : {-1, 9})
+    EXPECT_EQ(kindOf([&](BuildSettings& s) { s.viewError = error; }), ErrorKind::invalidArgument) << error;
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.metresPerUnit = -1; }), ErrorKind::invalidArgument);
 }
 

@@ -65,7 +65,8 @@ TEST_F(FarcellTest, HelpListsEveryVerbOnStdoutAndSucceeds) {
     const Outcome outcome = run(spelling);
     EXPECT_EQ(outcome.code, 0) << spelling;
     EXPECT_EQ(outcome.err, "");
-    for (const char* verb : {"generate", "build", "batch", "info", "verify", "render", "view", "extract", "evaluate"})
+    for (const char* verb :
+         {"generate", "build", "batch", "repack", "info", "verify", "render", "view", "extract", "evaluate"})
       EXPECT_NE(outcome.out.find(std::string("  ") + verb + " "), std::string::npos) << verb;
   }
 }

@@ -63,6 +63,10 @@ void addContentOptions(CLI::App& app, Arguments& arguments) {
          "length of a model unit: mm, cm, m, km, in, ft or metres as a number; default: what the scene says, else m")
       ->type_name("LENGTH");
   app.add_flag("--normals", settings.bakeNormals, "views also keep a normal");
+  app.add_option("--view-error", settings.viewError,
+                 "how far a channel of a view's texel (coverage, colour, depth, normal) may be from what was baked, in "
+                 "255ths, 0 to 8: more takes fewer bytes; 0: lossless")
+      ->capture_default_str();
   app.add_option("--simplifier", arguments.simplifier,
                  "what makes the meshes of inner cells: edge collapses, or OpenMesh's decimater, which is slower")
       ->check(CLI::IsMember({"collapse", "openmesh"}))

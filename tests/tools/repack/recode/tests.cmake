@@ -1,0 +1,3 @@
+find_package(nlohmann_json REQUIRED)
+farcell_tests(tools/repack/recode DEPS farcell_tests_support farcell_tools_repack_recode nlohmann_json::nlohmann_json)
+add_dependencies(tools_repack_recode_test farcell-repack)
