@@ -12,10 +12,15 @@ namespace farcell::lod {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
-// A part stands for others along the curve that are within this many times the root of the area that makes it small.
-constexpr double kReach = 8;
-// Nor does a long, thin one grow longer than this many times the root of the area that it stands for.
-constexpr double kMostLength = 24;
+// Of the cubes that keep a part each: at most this many times the root of the area that makes a part small.
+constexpr double kCubeRoots = 3;
+// A part grows by this many times that root on each side at most.
+constexpr double kMostGrowthRoots = 1;
+// Nor does it stand for more than the square of this, times its own area.
+constexpr double kMostFactor = 4;
+// Of the area of all parts that may go.
+constexpr double kMostLost = 1.0 / 16;
+constexpr int kCodeLevel = 20;
 constexpr int kBisections = 30;
 // Less is not worth moving places for.
 constexpr double kLeastEnlargement = 1.01;
@@ -47,11 +52,27 @@ struct Extent {
   glm::dvec3 middle() const { return 0.5 * (min + max); }
 };
 
-// In the cell's cube of 2^20 divisions.
+// In the cell's cube of 2^kCodeLevel divisions.
 uint64_t codeOf(const GridBox& box, glm::dvec3 point) {
   const glm::dvec3 share = (point - glm::dvec3(box.min)) / static_cast<double>(box.max.x - box.min.x);
-  const auto part = [](double value) { return static_cast<uint32_t>(std::clamp(value, 0.0, 0.999999) * (1 << 20)); };
-  return mortonCode(CellKey{20, part(share.x), part(share.y), part(share.z)});
+  const auto part = [](double value) {
+    return static_cast<uint32_t>(std::clamp(value, 0.0, 0.999999) * (1 << kCodeLevel));
+  };
+  return mortonCode(CellKey{kCodeLevel, part(share.x), part(share.y), part(share.z)});
+}
+
+// The largest factor of a part that is this large.
+double growth(double sizeSteps, double least) { return 1 + 2 * kMostGrowthRoots * std::sqrt(least) / sizeSteps; }
+
+// The least number, of those up to `most`, for which `enough` is true; `most` where it is for none.
+template <class Enough>
+double leastOf(double most, const Enough& enough) {
+  double low = 0, high = most;
+  for (int step = 0; step < kBisections && enough(high); ++step) {
+    const double middle = 0.5 * (low + high);
+    (enough(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 }  // namespace
@@ -77,9 +98,11 @@ Parts::Parts(const WeldedMesh& mesh) : mesh_(mesh), partOf_(mesh.places.size(), 
     if (mesh.faces[place] != 0) free_[partOf_[place]] = false;
   }
   for (const Extent& extent : extents) {
-    middles_.push_back(extent.middle());
+    sizesSteps_.push_back(glm::distance(extent.min, extent.max));
     codes_.push_back(codeOf(mesh.box, extent.middle()));
   }
+  ownAreas_ = areas_;
+  for (size_t part = 0; part < areas_.size(); ++part) freeArea_ += free_[part] ? areas_[part] : 0;
   anyFree_ = std::find(free_.begin(), free_.end(), true) != free_.end();
 }
 
@@ -103,46 +126,67 @@ std::vector<Parts::Member> Parts::freeMembers(const std::vector<Triangle>& trian
   return members;
 }
 
-// Visits each member of less than `least`: the member, whether it is kept, and the area that it stands for then. One
-// that is far from the next stands for those before it even if they are few: nothing is taken away where nothing is
-// near.
+// Visits each member of less than `least`: the member, whether it is kept, and the area that it stands for then.
+// Returns the area that none stands for.
 template <class Visit>
-void Parts::sample(const std::vector<Member>& members, double least, const Visit& visit) const {
-  const double reach = kReach * std::sqrt(least);
-  double sum = 0;
-  const Member* waiting = nullptr;
-  const auto pass = [&](const Member& member, bool last) {
-    sum += areas_[member.part];
-    const bool kept = last || sum >= least;
-    visit(member, kept, sum);
-    if (kept) sum = 0;
-  };
-  for (const Member& member : members) {
-    if (areas_[member.part] >= least) continue;
-    if (waiting != nullptr) pass(*waiting, glm::distance(middles_[waiting->part], middles_[member.part]) > reach);
-    waiting = &member;
+double Parts::sample(const std::vector<Member>& members, double least, int cubeLevel, const Visit& visit) const {
+  const int dropped = 3 * (kCodeLevel - cubeLevel);
+  double waiting = 0;  // area that none stands for yet
+  for (size_t begin = 0, end = 0; begin < members.size(); begin = end) {
+    const auto cubeOf = [&](size_t i) { return codes_[members[i].part] >> dropped; };
+    while (end < members.size() && cubeOf(end) == cubeOf(begin)) ++end;
+    const std::span<const Member> cube(members.data() + begin, members.data() + end);
+    const Member* const lone = loneOf(cube, least, waiting);
+    for (const Member& member : cube) {
+      const double area = areas_[member.part];
+      if (area >= least) continue;
+      waiting += area;
+      const bool kept = waiting >= least || &member == lone;
+      const double factor = std::min(kMostFactor, growth(sizesSteps_[member.part], least));
+      const double stands = kept ? std::min(waiting, std::max(area, factor * factor * ownAreas_[member.part])) : 0;
+      visit(member, kept, stands);
+      waiting -= stands;
+    }
   }
-  if (waiting != nullptr) pass(*waiting, true);
+  return waiting;
+}
+
+int Parts::cubeLevel(double least) const {
+  const double side = mesh_.box.max.x - mesh_.box.min.x;
+  const double level = std::ceil(std::log2(side / (kCubeRoots * std::sqrt(least))));
+  return static_cast<int>(std::clamp(level, 0.0, double{kCodeLevel}));
+}
+
+// The largest, where otherwise none would be left.
+const Parts::Member* Parts::loneOf(std::span<const Member> cube, double least, double waiting) const {
+  const Member* largest = &cube.front();
+  for (const Member& member : cube) {
+    if (areas_[member.part] >= least) return nullptr;
+    waiting += areas_[member.part];
+    if (areas_[member.part] > areas_[largest->part]) largest = &member;
+  }
+  return waiting >= least ? nullptr : largest;
 }
 
 bool Parts::thin(Collapser& collapser, double areaSteps2, size_t target) {
   const std::vector<Member> members = freeMembers(collapser.triangles());
-  const auto left = [&](double least) {
-    size_t triangles = collapser.triangles().size();
-    sample(members, least, [&](const Member& member, bool kept, double) { triangles -= kept ? 0 : member.triangles; });
-    return triangles;
-  };
   double total = 0;
   for (const Member& member : members) total += areas_[member.part];
-  double low = 0, high = std::min(areaSteps2, 2 * total);
-  for (int step = 0; step < kBisections && left(high) < target; ++step) {
-    const double middle = 0.5 * (low + high);
-    (left(middle) > target ? low : high) = middle;
-  }
+  // Whether the target is reached, or more would be lost than what is left can stand for.
+  const auto enough = [&](double least, int level) {
+    size_t left = collapser.triangles().size();
+    const double lost = sample(members, least, level,
+                               [&](const Member& member, bool kept, double) { left -= kept ? 0 : member.triangles; });
+    return left <= target || lost + freeArea_ - total > kMostLost * freeArea_;
+  };
+  // First the grid, then, as it has few sizes, the area once more.
+  const double side = mesh_.box.max.x - mesh_.box.min.x, most = std::min(areaSteps2, std::max(2 * total, side * side));
+  const int level = cubeLevel(leastOf(most, [&](double least) { return enough(least, cubeLevel(least)); }));
+  const double least = leastOf(most, [&](double area) { return enough(area, level); });
   std::vector<bool> taken(count());
   std::vector<double> areas = areas_;
   size_t takenNow = 0;
-  sample(members, high, [&](const Member& member, bool kept, double sum) {
+  sample(members, least, level, [&](const Member& member, bool kept, double sum) {
     if (kept) areas[member.part] = sum;
     taken[member.part] = !kept;
     takenNow += kept ? 0 : 1;
@@ -150,6 +194,7 @@ bool Parts::thin(Collapser& collapser, double areaSteps2, size_t target) {
   areas_ = std::move(areas);
   taken_ += takenNow;
   if (takenNow == 0) return false;
+  leastArea_ = std::max(leastArea_, least);
   std::vector<bool> keep;
   for (const Triangle& t : collapser.triangles()) keep.push_back(!taken[partOf_[t[0]]]);
   collapser.filter(keep);
@@ -175,8 +220,8 @@ std::vector<GridPoint> Parts::enlarged(const std::vector<Triangle>& triangles) c
     const Extent& extent = extents[partOf_[place]];
     const glm::dvec3 size = extent.max - extent.min, room = high - low;
     const double fits = std::min({room.x / size.x, room.y / size.y, room.z / size.z});
-    const double root = std::sqrt(areas_[partOf_[place]]), longest = kMostLength * root / glm::length(size);
-    const double factor = std::min({root / std::sqrt(own[partOf_[place]]), fits, longest});
+    const double needed = std::sqrt(areas_[partOf_[place]] / own[partOf_[place]]);
+    const double factor = std::min({needed, fits, growth(glm::length(size), leastArea_)});
     if (!(factor >= kLeastEnlargement)) continue;
     const glm::dvec3 middle = glm::clamp(extent.middle(), low + 0.5 * factor * size, high - 0.5 * factor * size);
     const glm::dvec3 moved = middle + (glm::dvec3(places[place]) - extent.middle()) * factor;
