@@ -15,10 +15,11 @@ class Assembly {
 
   Result<> mesh(uint32_t cell) {
     CellRecord& record = directory_.cells[cell];
-    FARCELL_ASSIGN(const CodedMesh mesh, context_.store.mesh(cell));
+    const MeshFigures mesh = context_.store.meshFigures(cell);
     record.meshTriangles = mesh.triangles;
     record.geometricError = mesh.errorSteps * directory_.model.grid.step();
-    for (const CodedPart& part : mesh.parts) {
+    for (uint32_t index = 0; index < mesh.parts; ++index) {
+      FARCELL_ASSIGN(const CodedPart part, context_.store.part(cell, index));
       FARCELL_ASSIGN(const uint32_t page,
                      writer_.add(PageKind::geometry, cell, record.geometryPageCount, part.decodedBytes, part.bytes));
       if (record.geometryPageCount++ == 0) record.firstGeometryPage = page;

@@ -9,13 +9,8 @@
 namespace farcell {
 namespace {
 
-uint64_t idOf(const ViewBatch& batch) { return uint64_t{batch.cell} << 32 | batch.firstPair; }
-
-uint32_t storedBytes(const CodedMesh& mesh) {
-  uint64_t sum = 0;
-  for (const CodedPart& part : mesh.parts) sum += part.bytes.size();
-  return static_cast<uint32_t>(std::min<uint64_t>(sum, UINT32_MAX));
-}
+uint64_t idOf(uint32_t cell, uint32_t what) { return uint64_t{cell} << 32 | what; }
+uint64_t idOf(const ViewBatch& batch) { return idOf(batch.cell, batch.firstPair); }
 
 }  // namespace
 
@@ -30,18 +25,19 @@ Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& 
   return store;
 }
 
-Result<> CellStore::add(uint32_t cell, const CodedMesh& mesh) {
-  ByteWriter head, body;
+Result<> CellStore::add(uint32_t cell, uint32_t part, const CodedPart& coded) {
+  ByteWriter head;
+  head.u32(coded.decodedBytes);
+  return journal_->add({static_cast<uint32_t>(Kind::part), idOf(cell, part)}, head.bytes, coded.bytes);
+}
+
+Result<> CellStore::add(uint32_t cell, const MeshFigures& mesh) {
+  ByteWriter head;
   head.u64(mesh.triangles);
   head.f64(mesh.errorSteps);
-  head.u32(storedBytes(mesh));
-  body.u32(static_cast<uint32_t>(mesh.parts.size()));
-  for (const CodedPart& part : mesh.parts) {
-    body.u32(part.decodedBytes);
-    body.u32(static_cast<uint32_t>(part.bytes.size()));
-    body.append(part.bytes);
-  }
-  return journal_->add({static_cast<uint32_t>(Kind::mesh), cell}, head.bytes, body.bytes);
+  head.u32(mesh.parts);
+  head.u32(mesh.bytes);
+  return journal_->add({static_cast<uint32_t>(Kind::mesh), cell}, head.bytes, {});
 }
 
 Result<> CellStore::add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views) {
@@ -58,11 +54,14 @@ Result<> CellStore::add(const ViewBatch& batch, std::span<const ViewCost> baked,
 void CellStore::found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place) {
   const std::lock_guard lock(mutex_);
   ByteReader in(head);
-  if (record.kind == static_cast<uint32_t>(Kind::mesh)) {
-    StoredMesh mesh{{}, place};
-    mesh.figures.triangles = in.u64();
-    mesh.figures.errorSteps = in.f64();
-    mesh.figures.bytes = in.u32();
+  if (record.kind == static_cast<uint32_t>(Kind::part)) {
+    parts_.emplace(record.id, StoredPart{in.u32(), place});
+  } else if (record.kind == static_cast<uint32_t>(Kind::mesh)) {
+    MeshFigures mesh;
+    mesh.triangles = in.u64();
+    mesh.errorSteps = in.f64();
+    mesh.parts = in.u32();
+    mesh.bytes = in.u32();
     meshes_.emplace(static_cast<uint32_t>(record.id), mesh);
   } else if (record.kind == static_cast<uint32_t>(Kind::views) && batches_.emplace(record.id, place).second) {
     foundViews(static_cast<uint32_t>(record.id >> 32), head);
@@ -92,26 +91,17 @@ bool CellStore::has(const ViewBatch& batch) const {
 
 MeshFigures CellStore::meshFigures(uint32_t cell) const {
   const std::lock_guard lock(mutex_);
-  return meshes_.at(cell).figures;
+  return meshes_.at(cell);
 }
 
-Result<CodedMesh> CellStore::mesh(uint32_t cell) const {
-  StoredMesh stored;
+Result<CodedPart> CellStore::part(uint32_t cell, uint32_t part) const {
+  StoredPart stored;
   {
     const std::lock_guard lock(mutex_);
-    stored = meshes_.at(cell);
+    stored = parts_.at(idOf(cell, part));
   }
-  FARCELL_ASSIGN(const std::vector<std::byte> body, journal_->read(stored.place));
-  CodedMesh mesh{stored.figures.triangles, stored.figures.errorSteps, {}};
-  ByteReader in(body);
-  for (uint32_t parts = in.u32(); parts > 0 && in.ok(); --parts) {
-    CodedPart& part = mesh.parts.emplace_back();
-    part.decodedBytes = in.u32();
-    const std::span<const std::byte> bytes = in.take(in.u32());
-    part.bytes.assign(bytes.begin(), bytes.end());
-  }
-  FARCELL_CHECK(in.ok());
-  return mesh;
+  FARCELL_ASSIGN(std::vector<std::byte> bytes, journal_->read(stored.place));
+  return CodedPart{stored.decodedBytes, std::move(bytes)};
 }
 
 Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {

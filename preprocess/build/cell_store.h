@@ -21,14 +21,10 @@ struct CodedPart {
 };
 
 // The mesh of a cell. An inner cell may have none: no triangles, no parts.
-struct CodedMesh {
-  uint64_t triangles = 0;
-  double errorSteps = 0;  // geometric error in steps of the model's grid
-  std::vector<CodedPart> parts;
-};
 struct MeshFigures {
   uint64_t triangles = 0;
-  double errorSteps = 0;
+  double errorSteps = 0;  // geometric error in steps of the model's grid
+  uint32_t parts = 0;
   uint32_t bytes = 0;  // of all parts, at most 2^32 - 1
 };
 
@@ -45,14 +41,16 @@ class CellStore {
   static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer,
                                                  const ViewLimits& limits);
 
-  // Any thread. Of a cell or batch that is there already the first stays: both are the same.
+  // Any thread. Of a part, mesh or batch that is there already the first stays: both are the same.
+  // A mesh goes in part by part, however many it has, and is there once its figures are.
+  Result<> add(uint32_t cell, uint32_t part, const CodedPart& coded);
+  Result<> add(uint32_t cell, const MeshFigures& mesh);
   // baked: what became of each view of the batch that is wanted; views: those that are not empty, by rising view.
-  Result<> add(uint32_t cell, const CodedMesh& mesh);
   Result<> add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views);
   bool hasMesh(uint32_t cell) const;
   bool has(const ViewBatch& batch) const;
-  MeshFigures meshFigures(uint32_t cell) const;  // REQUIRES: hasMesh
-  Result<CodedMesh> mesh(uint32_t cell) const;   // REQUIRES: hasMesh
+  MeshFigures meshFigures(uint32_t cell) const;                // REQUIRES: hasMesh
+  Result<CodedPart> part(uint32_t cell, uint32_t part) const;  // REQUIRES: hasMesh, part < meshFigures(cell).parts
   // Those that are not empty, by rising view.
   Result<std::vector<EncodedView>> views(uint32_t cell) const;
 
@@ -63,9 +61,9 @@ class CellStore {
   std::vector<ViewCost> viewCosts() const;
 
  private:
-  enum class Kind : uint32_t { mesh = 1, views = 2 };
-  struct StoredMesh {
-    MeshFigures figures;
+  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3 };
+  struct StoredPart {
+    uint32_t decodedBytes = 0;
     JournalPlace place;
   };
 
@@ -76,7 +74,8 @@ class CellStore {
   const ViewLimits limits_;
   mutable std::mutex mutex_;
   // Guarded by mutex_ while something is added:
-  std::map<uint32_t, StoredMesh> meshes_;
+  std::map<uint64_t, StoredPart> parts_;  // by cell, then part
+  std::map<uint32_t, MeshFigures> meshes_;
   std::map<uint64_t, JournalPlace> batches_;  // by cell, then first pair
   std::vector<ViewCost> views_;
   std::unique_ptr<Journal> journal_;  // the last: its sink fills the others

@@ -39,10 +39,28 @@ class Parts {
   GridTriangles part_;
 };
 
-CodedPart codedPart(const GeometryPage& page) {
-  const GeometryPage ordered = optimisedOrder(page);
-  return {decodedSizeBytes(ordered), encodeGeometryPage(ordered)};
-}
+// Codes the parts of a mesh and stores each as soon as it is done: some meshes are larger than memory.
+class MeshWriter {
+ public:
+  MeshWriter(CellStore& store, uint32_t cell) : store_(store), cell_(cell) {}
+
+  Result<> add(const GeometryPage& page) {
+    const GeometryPage ordered = optimisedOrder(page);
+    const CodedPart coded{decodedSizeBytes(ordered), encodeGeometryPage(ordered)};
+    bytes_ += coded.bytes.size();
+    return store_.add(cell_, parts_++, coded);
+  }
+  Result<> finish(uint64_t triangles, double errorSteps) {
+    return store_.add(cell_,
+                      {triangles, errorSteps, parts_, static_cast<uint32_t>(std::min<uint64_t>(bytes_, UINT32_MAX))});
+  }
+
+ private:
+  CellStore& store_;
+  const uint32_t cell_;
+  uint32_t parts_ = 0;
+  uint64_t bytes_ = 0;
+};
 
 // ---- inner cells ----
 
@@ -50,13 +68,14 @@ CodedPart codedPart(const GeometryPage& page) {
 constexpr uint64_t kBytesOfSimplifiedTriangle = 600;
 
 Result<LodMesh> storedMesh(const BuildContext& context, uint32_t cell) {
-  FARCELL_ASSIGN(const CodedMesh coded, context.store.mesh(cell));
   const CellKey& key = context.tree.cells[cell].key;
   const GridPoint cellMin = cellBox(context.model.grid, key).min;
   const uint32_t maxCoordinate = 1u << (context.model.grid.bits - static_cast<int>(key.level));
   LodMesh mesh;
-  for (const CodedPart& part : coded.parts) {
-    FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(part.bytes, {maxCoordinate, part.decodedBytes}));
+  const uint32_t parts = context.store.meshFigures(cell).parts;
+  for (uint32_t part = 0; part < parts; ++part) {
+    FARCELL_ASSIGN(const CodedPart coded, context.store.part(cell, part));
+    FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(coded.bytes, {maxCoordinate, coded.decodedBytes}));
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     for (const glm::uvec3& position : page.positions) mesh.positions.push_back(cellMin + GridPoint(position));
     for (const uint32_t index : page.indices) mesh.indices.push_back(first + index);
@@ -109,26 +128,26 @@ Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* te
                  context.gate.take(std::min(triangles, kPartTriangles) * kBytesOfCodedTriangle, "coding a leaf"));
   const Lap lap(context.clock.encodeNs);
   const GridPoint cellMin = cellBox(context.model.grid, context.tree.cells[cell].key).min;
-  CodedMesh mesh{triangles, 0, {}};
+  MeshWriter mesh(context.store, cell);
   Parts parts([&](GridTriangles&& part) -> Result<> {
     FARCELL_TRY(checkInterrupt());
     const std::vector<GridTriangle> coloured = withTexturesAsColours(std::move(part), textures);
-    mesh.parts.push_back(codedPart(geometryPage(coloured, cellMin, context.model)));
-    return {};
+    return mesh.add(geometryPage(coloured, cellMin, context.model));
   });
   const size_t list = context.partition.leaves[context.tree.leafOf[cell]].list;
   FARCELL_TRY(context.partition.triangles.forEachPortion(
       list, kPortion, [&](const GridTriangleSpan& portion) { return parts.add(portion); }));
   FARCELL_TRY(parts.flush());
   if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
-  return context.store.add(cell, mesh);
+  return mesh.finish(triangles, 0);
 }
 
 Result<> simplifyInner(const BuildContext& context, uint32_t cell) {
   const CellRecord& record = context.tree.cells[cell];
   const auto leafTriangles = static_cast<uint64_t>(context.model.settings.leafTriangles);
   const Children children = childrenOf(context, record);
-  if (!children.whole || children.triangles > kMaxSimplifiedLeaves * leafTriangles) return context.store.add(cell, {});
+  if (!children.whole || children.triangles > kMaxSimplifiedLeaves * leafTriangles)
+    return context.store.add(cell, MeshFigures{});
   FARCELL_ASSIGN(const MemoryGate::Share share,
                  context.gate.take(children.triangles * kBytesOfSimplifiedTriangle, "simplifying a cell"));
   const Lap lap(context.clock.meshNs);
@@ -144,11 +163,10 @@ Result<> simplifyInner(const BuildContext& context, uint32_t cell) {
   meshes.clear();
   const LodMesh& mesh = simplified.mesh;
   const GridPoint cellMin = cellBox(context.model.grid, record.key).min;
-  CodedMesh coded{mesh.triangles(), simplified.errorSteps, {}};
+  MeshWriter coded(context.store, cell);
   for (size_t first = 0; first < mesh.triangles(); first += kPartTriangles)
-    coded.parts.push_back(
-        codedPart(pageOf(mesh, first, std::min<size_t>(kPartTriangles, mesh.triangles() - first), cellMin)));
-  return context.store.add(cell, coded);
+    FARCELL_TRY(coded.add(pageOf(mesh, first, std::min<size_t>(kPartTriangles, mesh.triangles() - first), cellMin)));
+  return coded.finish(mesh.triangles(), simplified.errorSteps);
 }
 
 std::vector<uint32_t> leavesOf(const CellTree& tree) {
