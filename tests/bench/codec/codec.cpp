@@ -5,9 +5,11 @@
 // texels or triangles.
 #include <time.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "cache/pack/encoded_view.h"
@@ -15,6 +17,7 @@
 #include "preprocess/encode/geometry_page.h"
 #include "tests/bench/codec/coders.h"
 #include "tests/bench/codec/near.h"
+#include "tests/bench/codec/reproject.h"
 
 namespace farcell {
 namespace {
@@ -110,7 +113,22 @@ struct Sampled {
   uint64_t met = 0;
   std::vector<CoderTotals> totals = otherCoders();
   std::vector<NearTotals> near = nearWays();
+  ReprojectTotals reprojected = {};
 };
+
+// Predicts the view from the one of its page that looks most alike.
+void addReprojected(const ViewImage& view, const ViewPage& page, const BuildSettings& settings,
+                    ReprojectTotals& totals) {
+  const Viewpoints viewpoints = Viewpoints::create(settings.views).value();
+  const auto cosine = [&](const ViewImage& other) {
+    return glm::dot(viewpoints.directions()[view.view], viewpoints.directions()[other.view]);
+  };
+  const ViewImage* nearest = nullptr;
+  for (const ViewImage& other : page.views)
+    if (other.width > 0 && other.view != view.view && (nearest == nullptr || cosine(other) > cosine(*nearest)))
+      nearest = &other;
+  if (nearest != nullptr) addReprojected(view, *nearest, viewpoints, settings.imageSize, totals);
+}
 
 Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals, Sampled& sampled) {
   FARCELL_ASSIGN(const ViewPage page, pack.readViews(index));
@@ -120,6 +138,7 @@ Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals, 
   for (const ViewImage& view : page.views)
     if (view.width > 0 && sampled.every > 0 && sampled.met++ % sampled.every == 0) {
       addNear(view, sampled.near);
+      addReprojected(view, page, pack.directory().model.settings, sampled.reprojected);
       addView(view, sampled.totals);
     }
   return measure(
@@ -170,6 +189,26 @@ void print(const std::vector<NearTotals>& ways) {
   }
 }
 
+void print(const ReprojectTotals& totals) {
+  std::printf("\nreprojected: %llu views, %llu covered texels, %llu of them carried\nstream,ofBuilt\n",
+              static_cast<unsigned long long>(totals.views), static_cast<unsigned long long>(totals.texels),
+              static_cast<unsigned long long>(totals.carriedTexels));
+  const auto share = [&](const char* name, uint64_t bytes) {
+    std::printf("%s,%.4f\n", name, static_cast<double>(bytes) / static_cast<double>(totals.builtBytes));
+  };
+  share("built", totals.builtBytes);
+  share("alpha alone", totals.alphaBytes);
+  constexpr std::array<const char*, kCarriedWays> kNames = {"none", "alone", "corrected", "judged", "averaged"};
+  for (size_t way = 0; way < kCarriedWays; ++way) {
+    std::printf("%s: ", kNames[way]);
+    share("green", totals.greenBytes[way]);
+    std::printf("%s: ", kNames[way]);
+    share("depth", totals.depthBytes[way]);
+  }
+  share("best filters", totals.bestWithoutBytes);
+  share("best ways", totals.bestBytes);
+}
+
 Result<> run(const char* path, uint64_t every) {
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(path));
   Totals geometry, views;
@@ -187,6 +226,7 @@ Result<> run(const char* path, uint64_t every) {
   if (geometry.pages > 0) print(mesh);
   if (sampled.met > 0) {
     print(sampled.near);
+    print(sampled.reprojected);
     print(sampled.totals);
   }
   return {};
