@@ -119,7 +119,7 @@ TEST_F(FaultyBuild, WritesThatDoLessThanAskedGoOn) {
 }
 
 // Killed again and again at random times, with other numbers of threads and other memory each time.
-// FARCELL_KILLS: how many kills in all; tests/bench/resume does 200 on a larger model.
+// FARCELL_KILLS: how many kills in all. (In the foreground timeout waits until the killed program has let go of its lock.)
 TEST_F(InterruptedBuild, KilledAtRandomTimesItStillComesToTheSameBytes) {
   directory_.write("wavy.obj", wavyObj(kSanitized ? 20 : 60));
   const std::string options = "--leaf-triangles 300 --samples 4 --image-size 32";
@@ -134,7 +134,7 @@ TEST_F(InterruptedBuild, KilledAtRandomTimesItStillComesToTheSameBytes) {
     const int threads = 1 + static_cast<int>(random() % 3);
     const double seconds = 0.01 + static_cast<double>(random() % 1000) * 0.0003;
     const std::string command = fmt::format(
-        "cd '{}' && timeout -s KILL {:.3f} '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 {} "
+        "cd '{}' && timeout --foreground -s KILL {:.3f} '{}/farcell-build' wavy.obj -o x.far --quiet --views 12 {} "
         "--threads {} --memory {}M 2>err.txt >out.txt",
         directory_.path().string(), seconds, FARCELL_PROGRAMS_DIR, options, threads, 256 + 128 * (random() % 4));
     const int status = std::system(command.c_str());
