@@ -15,6 +15,10 @@
 namespace farcell {
 namespace {
 
+// Of the target: what is not locked may have as much, however much is locked. With less, shapes that cannot go would be
+// crushed to make room for what has to stay.
+constexpr uint64_t kLeastFreeDivisor = 2;
+
 Result<> checkArguments(const Grid& grid, const CellKey& cell, double childrenErrorSteps) {
   if (static_cast<int>(cell.level) >= grid.bits)
     return fail(ErrorKind::invalidArgument, "expected a cell above level {}, found {}", grid.bits, cell.level);
@@ -56,14 +60,16 @@ Result<SimplifiedCell> simplifyCell(const Grid& grid, const CellKey& cell, std::
   FARCELL_TRY(checkArguments(grid, cell, childrenErrorSteps));
   FARCELL_ASSIGN(lod::WeldedMesh mesh, lod::weld(cellBox(grid, cell), children));
   lod::closeSeams(mesh);
+  const uint64_t locked = lockedTriangles(mesh);
+  const uint64_t target = std::max(settings.targetTriangles, locked + settings.targetTriangles / kLeastFreeDivisor);
   std::optional<lod::Reduction> byOpenMesh;
-  if (settings.simplifier == Simplifier::openmesh) byOpenMesh = lod::reduceByOpenMesh(mesh, settings.targetTriangles);
-  const lod::Reduction reduction = byOpenMesh ? std::move(*byOpenMesh) : lod::reduce(mesh, settings.targetTriangles);
+  if (settings.simplifier == Simplifier::openmesh) byOpenMesh = lod::reduceByOpenMesh(mesh, target);
+  const lod::Reduction reduction = byOpenMesh ? std::move(*byOpenMesh) : lod::reduce(mesh, target);
   const lod::Surface full{mesh.places, mesh.triangles}, reduced{reduction.places, reduction.triangles};
   SimplifiedCell result{
       lod::outputMesh(mesh, reduction), childrenErrorSteps + errorSteps(full, reduced, reduction), {}};
   result.figures.childTriangles = mesh.triangles.size();
-  result.figures.lockedTriangles = lockedTriangles(mesh);
+  result.figures.lockedTriangles = locked;
   result.figures.parts = reduction.parts;
   result.figures.partsTaken = reduction.partsTaken;
   if (const double area = areaOf(full); area > 0) result.figures.areaKept = areaOf(reduced) / area;

@@ -8,7 +8,8 @@
 //
 // Vertices on the faces of the cell's own cube stay, and so do the edges between them: whatever cells a cut is made of,
 // neighbours fit without a crack, without a rule at run time. They become free in the ancestor whose inside they lie
-// in. What lies on the faces may be more than the target: then the target is exceeded, which the figures tell.
+// in. Where they hold more than half of the target, it is exceeded, which the figures tell: what is inside has half of
+// it.
 #pragma once
 
 #include <span>
@@ -20,7 +21,7 @@
 namespace farcell {
 
 struct LodSettings {
-  uint64_t targetTriangles = 16384;
+  uint64_t targetTriangles = 16384;  // exceeded by what is locked beyond half of it
   Simplifier simplifier = Simplifier::collapse;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -70,7 +71,17 @@ class Random {
   std::mt19937 engine_;
 };
 
-// Boxes with roofs that stand on a square, in streets.
+inline void addBox(std::vector<InputTriangle>& triangles, glm::dvec3 low, glm::dvec3 size) {
+  std::array<glm::dvec3, 8> p;
+  for (int i = 0; i < 8; ++i) p[size_t(i)] = low + size * glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
+  for (const auto& q : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4}, std::array{2, 6, 7, 3},
+                        std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+    triangles.push_back(inputTriangle(p[size_t(q[0])], p[size_t(q[1])], p[size_t(q[2])]));
+    triangles.push_back(inputTriangle(p[size_t(q[0])], p[size_t(q[2])], p[size_t(q[3])]));
+  }
+}
+
+// Boxes that stand on a square, in streets.
 inline std::vector<InputTriangle> city(uint32_t seed, int edge) {
   Random random(seed);
   std::vector<InputTriangle> triangles;
@@ -78,13 +89,20 @@ inline std::vector<InputTriangle> city(uint32_t seed, int edge) {
     for (int y = 0; y < edge; ++y) {
       const glm::dvec3 low(x + random.uniform(0, 0.2), y + random.uniform(0, 0.2), 0);
       const glm::dvec3 size(random.uniform(0.3, 0.7), random.uniform(0.3, 0.7), random.uniform(0.2, 1.5));
-      std::array<glm::dvec3, 8> p;
-      for (int i = 0; i < 8; ++i) p[size_t(i)] = low + size * glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
-      for (const auto& q : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
-                            std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
-        triangles.push_back(inputTriangle(p[size_t(q[0])], p[size_t(q[1])], p[size_t(q[2])]));
-        triangles.push_back(inputTriangle(p[size_t(q[0])], p[size_t(q[2])], p[size_t(q[3])]));
-      }
+      addBox(triangles, low, size);
+    }
+  return triangles;
+}
+
+// Thin and up to four long, one in each unit of a square, along it or across.
+inline std::vector<InputTriangle> fences(uint32_t seed, int edge) {
+  Random random(seed);
+  std::vector<InputTriangle> triangles;
+  for (int x = 0; x < edge; ++x)
+    for (int y = 0; y < edge; ++y) {
+      glm::dvec3 size(0.02, 0.02, 0.3);
+      size[static_cast<int>(random.below(2))] = random.uniform(0.5, 4);
+      addBox(triangles, {x + random.uniform(0, 0.2), y + random.uniform(0, 0.2), 0}, size);
     }
   return triangles;
 }
