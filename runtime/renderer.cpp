@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <optional>
@@ -42,10 +43,10 @@ class Stopwatch {
   double startCpuSeconds_ = processCpuSeconds();
 };
 
-bool anyTriangles(const Cut& cut) {
-  for (const CutEntry& entry : cut.entries)
-    if (entry.representation == Representation::triangles) return true;
-  return false;
+uint64_t countOf(const Cut& cut, Representation representation) {
+  return static_cast<uint64_t>(std::count_if(cut.entries.begin(), cut.entries.end(), [&](const CutEntry& entry) {
+    return entry.representation == representation;
+  }));
 }
 
 void addTo(std::vector<uint16_t>& sums, const std::vector<uint8_t>& values) {
@@ -100,7 +101,7 @@ const FrameTarget& Renderer::Impl::targetFor(int width, int height, int samples,
 Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut,
                                   bool withCoverage, glm::dvec2 jitterPx, FrameStats& stats) {
   // Impostors are filtered already: without triangles, more samples would only cost time.
-  const int samples = settings.samplesPerPixel > 1 && anyTriangles(cut) ? kMultisamples : 1;
+  const int samples = settings.samplesPerPixel > 1 && cut.triangles > 0 ? kMultisamples : 1;
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
@@ -138,6 +139,7 @@ Result<FrameStats> Renderer::Impl::drawOver(const Backdrop& backdrop, const Came
   stats.wallMs = watch.wallMs();
   stats.cpuMs = watch.cpuMs();
   stats.triangles = cut.triangles;
+  stats.meshes = countOf(cut, Representation::mesh);
   return stats;
 }
 
@@ -176,6 +178,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
     stats.wallMs += watch.wallMs();
     stats.cpuMs += watch.cpuMs();
     stats.triangles = cut.triangles;
+    stats.meshes = countOf(cut, Representation::mesh);
     if (image == nullptr) continue;
     addTo(colourSums, impl_->target->readColour());
     addTo(coverageSums, impl_->target->readCoverage());

@@ -29,7 +29,8 @@ struct FrameStats {
   double wallMs = 0;  // selection, draw and finish (`draw`) or hand-over to the GPU (`show`); without reading pages
                       // when all were resident
   double cpuMs = 0;   // of the whole process
-  uint64_t triangles = 0;           // drawn
+  uint64_t triangles = 0;           // drawn, of leaves and of meshes
+  uint64_t meshes = 0;              // inner cells drawn as their simplified meshes
   uint64_t impostors = 0;           // cells drawn as impostors
   uint64_t texels = 0;              // of the views drawn (cropped rectangles)
   uint64_t bytesRead = 0;           // from the pack for this frame

@@ -106,7 +106,7 @@ Result<> FramePainter::paintTriangles(const Frame& frame) {
   for (size_t i = 0; i < frame.cut.entries.size(); ++i) {
     const CutEntry& entry = frame.cut.entries[i];
     const CellRecord& cell = directory.cells[entry.cell];
-    if (entry.representation != Representation::triangles) continue;
+    if (entry.representation == Representation::impostor) continue;
     for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
       const uint32_t index = cell.firstGeometryPage + part;
       if (!geometry_.keep(index)) {

@@ -12,6 +12,7 @@ using Colour = std::array<uint8_t, 3>;
 
 // Told apart by all eyes (Okabe, Ito, Color Universal Design, 2008).
 constexpr Colour kTriangles = {230, 159, 0};
+constexpr Colour kMesh = {86, 180, 233};
 constexpr Colour kFlat = {204, 121, 167};
 constexpr Colour kDepthCorrected = {0, 158, 115};
 
@@ -51,6 +52,7 @@ Colour heatColour(double share) {
 
 const char* nameOf(Representation representation, ImpostorKind kind) {
   if (representation == Representation::triangles) return "triangles";
+  if (representation == Representation::mesh) return "simplified mesh";
   return kind == ImpostorKind::flat ? "flat impostor" : "impostor of kind A";
 }
 
@@ -59,7 +61,8 @@ void planKinds(ShowPlan& plan, const Cut& cut, ImpostorKind kind) {
     const Colour colour = lineColour(entry.representation, kind);
     plan.tints.push_back({colour[0], colour[1], colour[2], 255});
   }
-  for (const Representation representation : {Representation::triangles, Representation::impostor})
+  for (const Representation representation :
+       {Representation::triangles, Representation::mesh, Representation::impostor})
     plan.legend.push_back({nameOf(representation, kind), lineColour(representation, kind)});
 }
 
@@ -78,8 +81,7 @@ void planLevels(ShowPlan& plan, const Directory& directory, const Cut& cut) {
 void planError(ShowPlan& plan, const Cut& cut, double allowedTexelPixels) {
   const double topPixels = kHeatTop * allowedTexelPixels;
   for (const CutEntry& entry : cut.entries) {
-    const Colour colour =
-        heatColour(entry.representation == Representation::triangles ? 0 : entry.texelPixels / topPixels);
+    const Colour colour = heatColour(entry.errorPixels / topPixels);
     plan.tints.push_back({colour[0], colour[1], colour[2], 255});
   }
   for (size_t i = 0; i < kHeat.size(); ++i) {
@@ -180,6 +182,7 @@ ShowPlan planShow(Show show, const Directory& directory, const Cut& cut, const F
 
 std::array<uint8_t, 3> lineColour(Representation representation, ImpostorKind kind) {
   if (representation == Representation::triangles) return kTriangles;
+  if (representation == Representation::mesh) return kMesh;
   return kind == ImpostorKind::flat ? kFlat : kDepthCorrected;
 }
 

@@ -3,7 +3,7 @@
 // levels, kinds and error colour each cell, as bright as the picture (tinted() of show.h in shaders/shared); depth and
 // normals colour each point; cells and billboards are lines over the picture. For impostors:
 // - error is the edge of a texel of the cell's views on screen, pixels, at the cell's nearest point: what selection
-//   compares. Triangles count as 0.
+//   compares; of a simplified mesh its geometric error. Full triangles count as 0.
 // - depth is that of the surface kind A finds, and of the billboard's plane for the flat kind.
 // - normals are those baked into the pack, where it has them; else they are derived from the views' depth images.
 #pragma once

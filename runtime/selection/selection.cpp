@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "cache/schema/view_frame.h"
 
@@ -49,10 +50,18 @@ double distanceSteps(glm::dvec3 eye, const GridBox& box) {
   return glm::length(eye - nearest);
 }
 
-// A leaf that is too near for its views.
-struct Candidate {
-  size_t entry;
-  double texelPixels;  // of its views, at its nearest point: the error that triangles would remove
+constexpr double kLargest = 1e300;  // of errors: what is inside a content box still compares
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// A cell in view that no cell above it stands for as an impostor. Errors are in multiples of what they may be;
+// kNever: it cannot be drawn so.
+struct Node {
+  uint32_t cell;
+  uint32_t end;  // index after the last node below it
+  double viewError = kNever;
+  double meshError = kNever;
+  uint64_t triangles = 0;  // of the cell as `drawn` says, with all below it
+  enum class Drawn : uint8_t { asViews, asMesh, byChildren } drawn = Drawn::byChildren;
 };
 
 class Selector {
@@ -68,11 +77,16 @@ class Selector {
 
   Cut run() {
     if (!directory_.cells.empty()) visit(0);
-    spendBudget();
+    if (settings_.mode == RenderMode::automatic)
+      decideWithinBudget();
+    else
+      decide(settings_.mode == RenderMode::impostors ? kLargest : 1);
+    collect();
     return std::move(cut_);
   }
 
  private:
+  // Nodes front to back, each followed by those below it.
   void visit(uint32_t index) {
     const CellRecord& cell = directory_.cells[index];
     if (cell.content.empty()) return;
@@ -80,25 +94,17 @@ class Selector {
       ++cut_.culled;
       return;
     }
-    const bool wantsViews = settings_.mode == RenderMode::automatic || settings_.mode == RenderMode::impostors;
-    if (wantsViews && cell.firstViewPage != kNone && farEnough(cell)) {
-      addImpostor(index);
-    } else if (cell.childCount > 0) {
-      visitChildren(cell);
-    } else if (!wantsViews || cell.firstViewPage == kNone) {
-      addTriangles(index);
-    } else if (settings_.mode == RenderMode::impostors) {
-      addImpostor(index);
-    } else {
-      candidates_.push_back({cut_.entries.size(), texelPixels(cell)});
-      addImpostor(index);
-    }
+    const size_t place = nodes_.size();
+    nodes_.push_back({.cell = index, .end = 0, .viewError = viewError(cell), .meshError = meshError(cell)});
+    if (nodes_[place].viewError > 1) visitChildren(cell);
+    nodes_[place].end = static_cast<uint32_t>(nodes_.size());
   }
 
   // A ray from the eye crosses each plane between the children at most once, away from the eye's side: an octant can
   // hide another only if it differs from the eye's octant in a subset of the other's axes. Counting up in
   // (octant xor eye's octant) visits subsets first.
   void visitChildren(const CellRecord& cell) {
+    if (cell.childCount == 0) return;
     const GridBox box = cellBox(directory_.model.grid, cell.key);
     uint32_t eyeOctant = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -111,17 +117,82 @@ class Selector {
       if (children[i ^ eyeOctant] != kNone) visit(children[i ^ eyeOctant]);
   }
 
-  bool farEnough(const CellRecord& cell) const {
-    const GridBox cube = cellBox(directory_.model.grid, cell.key);
-    const double halfSide = (cube.max.x - cube.min.x) * 0.5;
-    if (glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) <= std::sqrt(3.0) * halfSide) return false;
-    return texelPixels(cell) <= settings_.texelPixels;
+  // Views of an inner cell keep to what they may or its children's are better; a leaf's are what is left.
+  double viewError(const CellRecord& cell) const {
+    const bool wanted = settings_.mode == RenderMode::automatic || settings_.mode == RenderMode::impostors;
+    if (!wanted || cell.firstViewPage == kNone) return kNever;
+    const double error = std::min(texelPixels(cell) / settings_.texelPixels, kLargest);
+    if (error <= 1 && outsideSphere(cell)) return error;
+    // The least above 1: a leaf whose sphere the eye is in has no impostor that keeps to what it may.
+    return cell.childCount == 0 ? std::max(error, std::nextafter(1.0, 2.0)) : kNever;
+  }
+  double meshError(const CellRecord& cell) const {
+    if (cell.childCount == 0) return 0;
+    const bool wanted = settings_.mode == RenderMode::automatic || settings_.mode == RenderMode::meshes;
+    if (!wanted || settings_.meshPixels == 0 || cell.firstGeometryPage == kNone) return kNever;
+    return std::min(meshPixels(cell) / settings_.meshPixels, kLargest);
   }
 
-  // Edge of a texel of the cell's views at the cell's nearest point; infinite inside the content box.
+  bool outsideSphere(const CellRecord& cell) const {
+    const GridBox cube = cellBox(directory_.model.grid, cell.key);
+    const double halfSide = (cube.max.x - cube.min.x) * 0.5;
+    return glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) > std::sqrt(3.0) * halfSide;
+  }
+
+  // Edge of a texel of the cell's views, and geometric error of its mesh.
   double texelPixels(const CellRecord& cell) const {
     const double halfSide = std::ldexp(0.5, directory_.model.grid.bits - static_cast<int>(cell.key.level));
     return imageTexel_ * halfSide / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
+  }
+  double meshPixels(const CellRecord& cell) const {
+    if (cell.geometricError == 0) return 0;
+    const double errorSteps = cell.geometricError / directory_.model.grid.step();
+    return errorSteps / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
+  }
+
+  // The fewest triangles with errors of at most `allowed`; returns how many. Of equal counts, the smaller errors.
+  uint64_t decide(double allowed) {
+    for (size_t i = nodes_.size(); i-- > 0;) {
+      Node& node = nodes_[i];
+      const CellRecord& cell = directory_.cells[node.cell];
+      node.triangles = 0;
+      node.drawn = Node::Drawn::byChildren;
+      for (size_t child = i + 1; child < node.end; child = nodes_[child].end) node.triangles += nodes_[child].triangles;
+      if (node.viewError <= allowed) {
+        node.drawn = Node::Drawn::asViews;
+      } else if (cell.childCount == 0 || (node.meshError <= allowed && cell.meshTriangles < node.triangles)) {
+        node.drawn = Node::Drawn::asMesh;
+        node.triangles = cell.meshTriangles;
+      }
+    }
+    return nodes_.empty() ? 0 : nodes_[0].triangles;
+  }
+
+  void decideWithinBudget() {
+    if (decide(1) <= settings_.triangleBudget) return;
+    std::vector<double> steps;  // where what is allowed makes a difference
+    for (const Node& node : nodes_)
+      for (const double error : {node.viewError, node.meshError})
+        if (error > 1 && error < kNever) steps.push_back(error);
+    std::sort(steps.begin(), steps.end());
+    const auto least = std::partition_point(steps.begin(), steps.end(),
+                                            [&](double allowed) { return decide(allowed) > settings_.triangleBudget; });
+    decide(least == steps.end() ? kLargest : *least);
+  }
+
+  void collect() {
+    for (size_t i = 0; i < nodes_.size();) {
+      const Node& node = nodes_[i];
+      if (node.drawn == Node::Drawn::byChildren) {
+        ++i;
+        continue;
+      }
+      if (node.drawn == Node::Drawn::asViews)
+        addImpostor(node.cell);
+      else
+        addMesh(node.cell);
+      i = node.end;
+    }
   }
 
   void addImpostor(uint32_t index) {
@@ -132,22 +203,13 @@ class Selector {
     cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(nearest),
                             static_cast<uint32_t>(second), texelPixels(directory_.cells[index])});
   }
-  void addTriangles(uint32_t index) {
-    cut_.entries.push_back({index});
-    cut_.triangles += directory_.cells[index].triangles;
-  }
-
-  // Cells without views have been counted already: the rest of the budget goes to the worst candidates.
-  void spendBudget() {
-    std::stable_sort(candidates_.begin(), candidates_.end(),
-                     [](const Candidate& l, const Candidate& r) { return l.texelPixels > r.texelPixels; });
-    for (const Candidate& candidate : candidates_) {
-      CutEntry& entry = cut_.entries[candidate.entry];
-      const uint64_t triangles = directory_.cells[entry.cell].triangles;
-      if (cut_.triangles > settings_.triangleBudget || triangles > settings_.triangleBudget - cut_.triangles) return;
-      cut_.triangles += triangles;
-      entry = {entry.cell};
-    }
+  void addMesh(uint32_t index) {
+    const CellRecord& cell = directory_.cells[index];
+    const bool leaf = cell.childCount == 0;
+    cut_.entries.push_back({.cell = index,
+                            .representation = leaf ? Representation::triangles : Representation::mesh,
+                            .errorPixels = leaf ? 0 : meshPixels(cell)});
+    cut_.triangles += cell.meshTriangles;
   }
 
   const Directory& directory_;
@@ -156,7 +218,7 @@ class Selector {
   const View view_;
   const SelectionSettings settings_;
   const double imageTexel_;
-  std::vector<Candidate> candidates_;
+  std::vector<Node> nodes_;
   Cut cut_;
 };
 

@@ -174,7 +174,7 @@ TEST(Renderer, trianglesHideImpostorsBehindAndShowThoseInFront) {
     const uint64_t all = drawn.pack->directory().cells[0].triangles;
     for (const uint64_t budget : {all / 4, all / 2, all * 3 / 4}) {
       RenderSettings settings = sized(160, 120, RenderMode::automatic);
-      settings.selection.texelPixels = 0;  // nothing is far enough: the budget decides
+      settings.selection.texelPixels = 1e-6;  // nothing is far enough: the budget decides
       settings.selection.triangleBudget = budget;
       const FrameStats stats = drawn.draw(camera, settings, found);
       EXPECT_GT(stats.impostors, 0u);

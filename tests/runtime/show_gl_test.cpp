@@ -131,8 +131,8 @@ TEST(Show, trianglesAndImpostorsHaveTheirOwnColour) {
     for (const RenderMode mode : {RenderMode::triangles, RenderMode::impostors}) {
       FrameImage image;
       const FrameStats stats = drawn.draw(kCamera, showing(Show::kinds, mode, kind), image);
-      ASSERT_EQ(stats.legend.size(), 2u);
-      const LegendEntry& expected = stats.legend[mode == RenderMode::triangles ? 0 : 1];
+      ASSERT_EQ(stats.legend.size(), 3u);
+      const LegendEntry& expected = stats.legend[mode == RenderMode::triangles ? 0 : 2];
       const glm::dvec3 p = projected(kCamera, {0.4, 0.4, 0.7});
       EXPECT_TRUE(isOfLegend(pixelAt(image, static_cast<int>(p.x), static_cast<int>(p.y)), {expected}))
           << expected.meaning;

@@ -141,7 +141,7 @@ std::vector<std::string> cameraStems(const std::vector<Camera>& cameras) {
 Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_TRY(checkReferenceSamples(options.referenceSamples));
   FARCELL_ASSIGN(std::vector<RendererPlan> plans,
-                 planRenderers(options.renderers, options.width, options.height, options.selection));
+                 planRenderers(options.renderers, options.width, options.height, options.selection, options.lodPixels));
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   FARCELL_ASSIGN(std::vector<Camera> cameras, loadCameras(options, pack.directory().model));
   FARCELL_TRY(makeDirectory(options.output));

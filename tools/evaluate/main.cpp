@@ -57,6 +57,14 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
                  "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
+  app.add_option(
+         "--mesh-pixels", options.selection.meshPixels,
+         "a simplified mesh of 'auto' may be this far from the full surface on screen, pixels; 0: none is drawn")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--lod-pixels", options.lodPixels, "the same of 'lod', which draws meshes only")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
   app.add_option("--frames", options.timedFrames, "warm frames that are timed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -43,6 +43,7 @@ Result<Measurement> measureRenderer(GlContext& context, const PackFile& pack, co
   FARCELL_TRY(timeFrames(renderer, camera, plan.settings, settings.timedFrames, entry));
   FARCELL_ASSIGN(const FrameStats last, renderer.draw(camera, plan.settings, &result.image));
   entry.triangles = last.triangles;
+  entry.meshes = last.meshes;
   entry.impostors = last.impostors;
   entry.texels = last.texels;
   const TestImage test{result.image.width, result.image.height, result.image.rgba, result.image.impostorCoverage};

@@ -10,6 +10,7 @@ namespace {
 
 const std::map<std::string, RenderMode> kModes = {{"auto", RenderMode::automatic},
                                                   {"impostors", RenderMode::impostors},
+                                                  {"meshes", RenderMode::meshes},
                                                   {"triangles", RenderMode::triangles},
                                                   {"full", RenderMode::full}};
 const std::map<std::string, ImpostorKind> kKinds = {{"flat", ImpostorKind::flat}, {"A", ImpostorKind::depthCorrected}};
@@ -27,7 +28,8 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
   app.add_option("--size", options.size, "width x height in pixels, 1x1 to 16384x16384")
       ->type_name("WxH")
       ->capture_default_str();
-  app.add_option("--mode", options.mode, "what is drawn; triangles: all leaves in view, full: all leaves")
+  app.add_option("--mode", options.mode,
+                 "what is drawn; meshes: no impostors, triangles: all leaves in view, full: all leaves")
       ->check(CLI::IsMember(kModes))
       ->capture_default_str();
   app.add_option("--kind", options.kind, "of impostors: A is depth-corrected")
@@ -44,6 +46,10 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
   app.add_option("--texel-pixels", options.texelPixels,
                  "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
       ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  app.add_option("--mesh-pixels", options.meshPixels,
+                 "a simplified mesh may be this far from the full surface on screen, pixels; 0: none is drawn")
+      ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   app.add_option("--samples", options.samples, "samples per pixel, of triangles")
       ->check(CLI::IsMember({"1", "4", "16"}))
@@ -63,6 +69,7 @@ Result<DrawPlan> planOf(const DrawOptions& options) {
   plan.settings.show = kShows.at(options.show);
   FARCELL_ASSIGN(plan.settings.selection.triangleBudget, parseCount(options.triangleBudget));
   plan.settings.selection.texelPixels = options.texelPixels;
+  plan.settings.selection.meshPixels = options.meshPixels;
   FARCELL_ASSIGN(plan.residentBytes, parseCount(options.residentBytes));
   if (options.cameras.empty() && !options.cameraName.empty())
     return fail(ErrorKind::invalidArgument, "--camera-name needs --camera");

@@ -24,6 +24,7 @@ struct DrawOptions {
   std::string show = "picture";
   std::string triangleBudget = "500k";
   double texelPixels = kTexelPixels;
+  double meshPixels = kMeshPixels;
   int samples = 4;
   std::string background;  // empty: the program's own
   std::string residentBytes = "1G";

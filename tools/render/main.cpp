@@ -28,8 +28,9 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 }
 
 nlohmann::json frameJson(const FrameStats& stats) {
-  return {{"wallMs", stats.wallMs},       {"cpuMs", stats.cpuMs},   {"triangles", stats.triangles},
-          {"impostors", stats.impostors}, {"texels", stats.texels}, {"bytesRead", stats.bytesRead}};
+  return {{"wallMs", stats.wallMs},      {"cpuMs", stats.cpuMs},         {"triangles", stats.triangles},
+          {"meshes", stats.meshes},      {"impostors", stats.impostors}, {"texels", stats.texels},
+          {"bytesRead", stats.bytesRead}};
 }
 
 // Frames after the first, which reads the pack; the first where it is the only one.
@@ -92,9 +93,10 @@ Result<> run(const RenderOptions& options) {
     FARCELL_TRY(writeFigures(options.statsFile, context.renderer(), plan.settings.show, frames));
   }
   const FrameStats& last = frames.back();
-  std::fprintf(stderr, "%.1f ms, %llu triangles, %llu impostors, %llu texels (%s)\n", medianWarmMs(frames),
-               static_cast<unsigned long long>(last.triangles), static_cast<unsigned long long>(last.impostors),
-               static_cast<unsigned long long>(last.texels), context.renderer().c_str());
+  std::fprintf(stderr, "%.1f ms, %llu triangles, %llu meshes, %llu impostors, %llu texels (%s)\n", medianWarmMs(frames),
+               static_cast<unsigned long long>(last.triangles), static_cast<unsigned long long>(last.meshes),
+               static_cast<unsigned long long>(last.impostors), static_cast<unsigned long long>(last.texels),
+               context.renderer().c_str());
   printLegend(last.legend);
   return {};
 }
@@ -105,7 +107,8 @@ Result<> run(const RenderOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Draws one picture of a pack.\n"
-      "Near cells are drawn as triangles, within a budget, the rest as impostors. What --show's colours mean is "
+      "Near cells are drawn as triangles, within a budget, in full or simplified, the rest as impostors. What --show's "
+      "colours mean is "
       "printed "
       "on stderr, and with --json as \"legend\". OpenGL 4.5 is needed, of a GPU or of Mesa's software renderer; no "
       "window is.",

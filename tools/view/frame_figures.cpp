@@ -23,6 +23,7 @@ Result<> writeFigures(const std::string& path, const FrameFigures& figures) {
     frames.push_back({{"frameMs", figures.frameMs[i]},
                       {"cpuMs", stats.cpuMs},
                       {"triangles", stats.triangles},
+                      {"meshes", stats.meshes},
                       {"impostors", stats.impostors},
                       {"texels", stats.texels},
                       {"bytesRead", stats.bytesRead}});

@@ -15,9 +15,10 @@ std::string renderCommand(const DrawOptions& options, const RenderSettings& sett
                           const std::string& cameraFile) {
   std::string command = fmt::format(
       "farcell render '{}' --camera '{}' --size {}x{} --mode {} --kind {} --samples {} --triangle-budget {} "
-      "--texel-pixels {}",
+      "--texel-pixels {} --mesh-pixels {}",
       pack, cameraFile, settings.width, settings.height, modeName(settings.selection.mode), kindName(settings.kind),
-      settings.samplesPerPixel, settings.selection.triangleBudget, settings.selection.texelPixels);
+      settings.samplesPerPixel, settings.selection.triangleBudget, settings.selection.texelPixels,
+      settings.selection.meshPixels);
   if (settings.show != Show::picture) command += fmt::format(" --show {}", showName(settings.show));
   if (!options.background.empty()) command += " --background " + options.background;
   return command;

@@ -229,10 +229,11 @@ void Viewer::updateTitle(bool now) {
   frameCount_ = 0;
   std::string title = std::filesystem::path(scene_.pack->path()).filename().string();
   if (!problem_.empty()) title += " | " + problem_;
-  title += fmt::format(" | {}, {}, {} | {:.1f} ms, {:.0f} fps | {} triangles, {} impostors",
-                       scene_.controls->navigation() == Navigation::orbit ? "orbit" : "fly",
-                       modeName(settings_.selection.mode), kindName(settings_.kind), meanMs_,
-                       meanMs_ > 0 ? 1000 / meanMs_ : 0.0, lastStats_.triangles, lastStats_.impostors);
+  title +=
+      fmt::format(" | {}, {}, {} | {:.1f} ms, {:.0f} fps | {} triangles, {} meshes, {} impostors",
+                  scene_.controls->navigation() == Navigation::orbit ? "orbit" : "fly",
+                  modeName(settings_.selection.mode), kindName(settings_.kind), meanMs_,
+                  meanMs_ > 0 ? 1000 / meanMs_ : 0.0, lastStats_.triangles, lastStats_.meshes, lastStats_.impostors);
   window_.setTitle(title);
 }
 

@@ -104,7 +104,7 @@ class Visits {
     settings.texelPixels = std::exp2(6 * around(random_));
     const Cut cut = selectCut(city_.directory, viewpoints_, camera, 1000, 1000, settings);
     for (const CutEntry& entry : cut.entries) {
-      if (std::isinf(entry.texelPixels)) continue;
+      if (std::isinf(entry.errorPixels)) continue;
       ++drawn_;
       EXPECT_TRUE(seen_[entry.cell][entry.view]) << "cell " << entry.cell << " view " << entry.view;
       EXPECT_TRUE(seen_[entry.cell][entry.secondView]) << "cell " << entry.cell << " second " << entry.secondView;

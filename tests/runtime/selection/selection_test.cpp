@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-// A random adaptive tree over a grid: leaves at several levels, some octants empty, some cells without views.
+// A random adaptive tree over a grid: leaves at several levels, some octants empty, some cells without views, some
+// inner cells without a mesh.
 class RandomTree {
  public:
   RandomTree(unsigned seed, const Grid& grid) : random_(seed) {
@@ -31,7 +32,7 @@ class RandomTree {
   Directory directory;
 
  private:
-  bool chance(double p) { return std::uniform_real_distribution<double>(0, 1)(random_) < p; }
+  bool chance(double p) { return part() < p; }
 
   CellRecord cell(const CellKey& key, uint32_t parent) {
     CellRecord record;
@@ -58,6 +59,7 @@ class RandomTree {
         record.content.max[axis] = std::max(a, b);
       }
       record.triangles = std::uniform_int_distribution<uint64_t>(1, 1000)(random_);
+      record.meshTriangles = record.triangles;
       record.firstGeometryPage = 0;
       record.geometryPageCount = 1;
     }
@@ -65,7 +67,14 @@ class RandomTree {
       record.content.include(directory.cells[child].content);
       record.triangles += directory.cells[child].triangles;
     }
+    if (record.childCount > 0 && chance(0.8)) {
+      record.meshTriangles = std::uniform_int_distribution<uint64_t>(1, record.triangles)(random_);
+      record.geometricError = chance(0.1) ? 0 : cellHalfSide(directory.model.grid, record.key) * std::exp2(-8 * part());
+      record.firstGeometryPage = 0;
+      record.geometryPageCount = 1;
+    }
   }
+  double part() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
   std::mt19937 random_;
 };
@@ -93,7 +102,9 @@ Camera cameraAt(const Grid& grid, glm::dvec3 eye, glm::dvec3 target, double fovY
   return {"test", worldOf(grid, eye), worldOf(grid, target), {0, 0, 1}, fovYRad};
 }
 
-SelectionSettings mode(RenderMode renderMode, uint64_t budget = 500'000) { return {renderMode, budget, kTexelPixels}; }
+SelectionSettings mode(RenderMode renderMode, uint64_t budget = 500'000, double meshPixels = kMeshPixels) {
+  return {renderMode, budget, kTexelPixels, meshPixels};
+}
 
 // First and last parameter of a ray within a box; first > last when it misses.
 std::pair<double, double> meet(glm::dvec3 eye, glm::dvec3 ray, const GridBox& box) {
@@ -144,8 +155,8 @@ TEST(Selection, aCutCoversEveryVisibleLeafExactlyOnce) {
     const RandomTree tree(seed, grid);
     const auto& cells = tree.directory.cells;
     for (const glm::dvec3 eye : eyes())
-      for (const RenderMode renderMode :
-           {RenderMode::automatic, RenderMode::impostors, RenderMode::triangles, RenderMode::full}) {
+      for (const RenderMode renderMode : {RenderMode::automatic, RenderMode::impostors, RenderMode::meshes,
+                                          RenderMode::triangles, RenderMode::full}) {
         SCOPED_TRACE(
             fmt::format("tree {} eye {} {} {} mode {}", seed, eye.x, eye.y, eye.z, static_cast<int>(renderMode)));
         const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
@@ -184,6 +195,11 @@ TEST(Selection, modesChooseTheirRepresentations) {
     for (const CutEntry& entry :
          selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::impostors)).entries)
       EXPECT_EQ(entry.representation == Representation::impostor, cells[entry.cell].firstViewPage != kNone);
+    for (const CutEntry& entry :
+         selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::meshes)).entries) {
+      EXPECT_EQ(entry.representation == Representation::triangles, cells[entry.cell].childCount == 0);
+      EXPECT_EQ(entry.representation == Representation::mesh, cells[entry.cell].childCount > 0);
+    }
   }
 }
 
@@ -221,7 +237,7 @@ TEST(Selection, theTriangleBudgetIsKeptAndSpentOnTheLargestTexelsFirst) {
       for (const uint64_t budget : {0u, 500u, 5000u, 50000u}) {
         SCOPED_TRACE(fmt::format("tree {} eye {} {} {} budget {}", seed, eye.x, eye.y, eye.z, budget));
         const Cut cut = selectCut(tree.directory, viewpoints(), cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth,
-                                  kHeight, mode(RenderMode::automatic, budget));
+                                  kHeight, mode(RenderMode::automatic, budget, 0));
         uint64_t sum = 0, withoutViews = 0;
         double smallestTriangles = INFINITY, largestImpostor = 0;
         for (const CutEntry& entry : cut.entries) {
@@ -246,11 +262,139 @@ TEST(Selection, theTriangleBudgetIsKeptAndSpentOnTheLargestTexelsFirst) {
   }
 }
 
+// What a cut costs and what is wrong with it, in the world's own lengths and by plain recursion.
+class Oracle {
+ public:
+  Oracle(const Directory& directory, const Camera& camera, const SelectionSettings& settings)
+      : directory_(directory), camera_(camera), settings_(settings), visible_(directory.cells.size(), false) {
+    // What is in the frustum is not this oracle's business: culling has its own tests.
+    for (const CutEntry& entry :
+         selectCut(directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::triangles)).entries)
+      for (uint32_t cell = entry.cell; cell != kNone; cell = directory.cells[cell].parent) visible_[cell] = true;
+  }
+
+  double viewError(uint32_t cell) const {
+    const CellRecord& record = directory_.cells[cell];
+    return pixels(record, texelSize(64) * cellHalfSide(directory_.model.grid, record.key)) / settings_.texelPixels;
+  }
+  double meshError(uint32_t cell) const {
+    const CellRecord& record = directory_.cells[cell];
+    return record.geometricError == 0 ? 0 : pixels(record, record.geometricError) / settings_.meshPixels;
+  }
+  bool hasMesh(uint32_t cell) const { return directory_.cells[cell].firstGeometryPage != kNone; }
+
+  // The fewest triangles of all cuts whose errors, in multiples of the settings, are at most `allowed`. Inner cells are
+  // impostors where they keep to the settings themselves and not otherwise.
+  uint64_t fewest(uint32_t cell, double allowed) const {
+    const CellRecord& record = directory_.cells[cell];
+    if (!visible_[cell]) return 0;
+    if (settings_.mode == RenderMode::automatic && record.firstViewPage != kNone) {
+      const Grid& grid = directory_.model.grid;
+      const bool beside = glm::length(camera_.position - cellCentre(grid, record.key)) >
+                          std::sqrt(3.0) * cellHalfSide(grid, record.key);
+      if (beside && viewError(cell) <= 1) return 0;
+      if (record.childCount == 0 && allowed > 1 && viewError(cell) <= allowed) return 0;
+    }
+    if (record.childCount == 0) return record.triangles;
+    uint64_t below = 0;
+    for (uint32_t child = 0; child < record.childCount; ++child) below += fewest(record.firstChild + child, allowed);
+    return hasMesh(cell) && meshError(cell) <= allowed ? std::min(below, record.meshTriangles) : below;
+  }
+
+ private:
+  double pixels(const CellRecord& record, double length) const {
+    const Grid& grid = directory_.model.grid;
+    const glm::dvec3 nearest = glm::min(glm::max(camera_.position, grid.worldFromGrid(record.content.min)),
+                                        grid.worldFromGrid(record.content.max));
+    return length * kHeight / (glm::length(camera_.position - nearest) * 2 * std::tan(camera_.fovYRad / 2));
+  }
+
+  const Directory& directory_;
+  const Camera& camera_;
+  const SelectionSettings& settings_;
+  std::vector<bool> visible_;
+};
+
+// The largest error of a cut's meshes and leaves' views, in multiples of what the settings allow.
+double largestError(const Oracle& oracle, const Cut& cut) {
+  double largest = 0;
+  for (const CutEntry& entry : cut.entries) {
+    if (entry.representation == Representation::impostor) largest = std::max(largest, oracle.viewError(entry.cell));
+    if (entry.representation == Representation::mesh) largest = std::max(largest, oracle.meshError(entry.cell));
+  }
+  return largest;
+}
+
+TEST(Selection, meshesAloneKeepToTheirErrorWithTheFewestTriangles) {
+  const Grid grid{{5, -7, 100}, 64, 24};
+  size_t meshes = 0, leaves = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const RandomTree tree(seed, grid);
+    for (const glm::dvec3 eye : eyes())
+      for (const double meshPixels : {0.5, 1.0, 4.0}) {
+        SCOPED_TRACE(fmt::format("tree {} eye {} {} {} pixels {}", seed, eye.x, eye.y, eye.z, meshPixels));
+        const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
+        const SelectionSettings settings = mode(RenderMode::meshes, 0, meshPixels);
+        const Cut cut = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings);
+        const Oracle oracle(tree.directory, camera, settings);
+        for (const CutEntry& entry : cut.entries) {
+          const bool mesh = entry.representation == Representation::mesh;
+          ++(mesh ? meshes : leaves);
+          const double error = mesh ? oracle.meshError(entry.cell) * meshPixels : 0;
+          EXPECT_LE(error, meshPixels * (1 + 1e-9));
+          EXPECT_NEAR(entry.errorPixels, error, 1e-9 * (1 + error));
+        }
+        EXPECT_EQ(cut.triangles, oracle.fewest(0, 1));
+      }
+  }
+  EXPECT_GT(meshes, 100u);
+  EXPECT_GT(leaves, 100u);
+}
+
+TEST(Selection, withinTheBudgetTheLargestErrorIsTheLeastThatCanBe) {
+  const Grid grid{{0, 0, 0}, 1, 24};
+  size_t free = 0, bound = 0, meshes = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const RandomTree tree(seed, grid);
+    for (const glm::dvec3 eye : eyes())
+      for (const uint64_t budget : {0u, 500u, 5000u, 20000u, 1000000u}) {
+        SCOPED_TRACE(fmt::format("tree {} eye {} {} {} budget {}", seed, eye.x, eye.y, eye.z, budget));
+        const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
+        const SelectionSettings settings = mode(RenderMode::automatic, budget);
+        const Cut cut = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings);
+        const Oracle oracle(tree.directory, camera, settings);
+        uint64_t sum = 0;
+        for (const CutEntry& entry : cut.entries) {
+          meshes += entry.representation == Representation::mesh;
+          if (entry.representation != Representation::impostor) sum += tree.directory.cells[entry.cell].meshTriangles;
+        }
+        EXPECT_EQ(cut.triangles, sum);
+        EXPECT_LE(cut.triangles, std::max(budget, oracle.fewest(0, INFINITY)));
+        if (oracle.fewest(0, 1) <= budget) {
+          ++free;
+          EXPECT_EQ(cut.triangles, oracle.fewest(0, 1));
+          EXPECT_LE(largestError(oracle, cut), 1 + 1e-9);
+        } else {
+          ++bound;
+          const double largest = largestError(oracle, cut);
+          EXPECT_EQ(cut.triangles, oracle.fewest(0, std::max(1.0, largest) * (1 + 1e-9)));
+          // With less error than this the budget is not enough. (Inside content boxes errors are infinite.)
+          const double less = std::isinf(largest) ? 1e100 : std::max(1.0, largest * (1 - 1e-9));
+          EXPECT_GT(oracle.fewest(0, less), budget);
+        }
+      }
+  }
+  EXPECT_GT(free, 20u);
+  EXPECT_GT(bound, 20u);
+  EXPECT_GT(meshes, 100u);
+}
+
 TEST(Selection, aCutDoesNotDependOnScaleOrOffset) {
   const RandomTree unit(2, Grid{{0, 0, 0}, 1, 24});
   for (const Grid& grid : {Grid{{1e6, -2e6, 5e5}, 1000, 24}, Grid{{0, 0, 0}, 1e-9, 24}, Grid{{1, 2, 3}, 1e12, 24}}) {
     Directory moved = unit.directory;
     moved.model.grid = grid;
+    for (CellRecord& cell : moved.cells) cell.geometricError *= grid.side;  // of the unit tree: model units
     for (const glm::dvec3 eye : {glm::dvec3(-2, 0.31, 0.43), glm::dvec3(0.31, 0.62, 0.13), glm::dvec3(3, 4, 5)}) {
       const auto a =
           selectCut(unit.directory, viewpoints(), cameraAt(unit.directory.model.grid, eye, {0.51, 0.52, 0.53}), kWidth,

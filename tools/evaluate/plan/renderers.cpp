@@ -21,6 +21,7 @@ constexpr std::array kKnown = {
     Known{"full-4spp", "geometry", RenderMode::full, 4, ImpostorKind::depthCorrected, true},
     Known{"full-16spp", "geometry", RenderMode::full, 16, ImpostorKind::depthCorrected, false},
     Known{"triangles", "geometry", RenderMode::triangles, 4, ImpostorKind::depthCorrected, false},
+    Known{"lod", "geometry", RenderMode::meshes, 4, ImpostorKind::depthCorrected, false},
     Known{"flat", "impostor", RenderMode::impostors, 4, ImpostorKind::flat, false},
     Known{"A", "impostor", RenderMode::impostors, 4, ImpostorKind::depthCorrected, false},
     Known{"auto", "mixed", RenderMode::automatic, 4, ImpostorKind::depthCorrected, false},
@@ -41,7 +42,7 @@ Result<std::set<std::string>> parseNames(const std::string& names) {
 }  // namespace
 
 Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,
-                                                const SelectionSettings& selection) {
+                                                const SelectionSettings& selection, double lodPixels) {
   FARCELL_ASSIGN(const std::set<std::string> asked, parseNames(names));
   std::vector<RendererPlan> plans;
   for (const Known& known : kKnown) {
@@ -53,6 +54,7 @@ Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int wi
     settings.kind = known.kind;
     settings.selection = selection;
     settings.selection.mode = known.mode;
+    if (known.mode == RenderMode::meshes) settings.selection.meshPixels = lodPixels;
     plans.push_back({known.name, known.rendererClass, settings});
   }
   return plans;

@@ -28,6 +28,7 @@ struct Entry {
   FrameTimes frame;        // wall
   double cpuMs = 0;        // median, whole process
   uint64_t triangles = 0;  // drawn
+  uint64_t meshes = 0;     // inner cells drawn as their simplified meshes
   uint64_t impostors = 0;  // cells drawn as impostors
   uint64_t texels = 0;
   uint64_t bytesRead = 0;                 // of the cold frame: nothing was resident

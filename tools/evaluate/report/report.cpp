@@ -22,6 +22,8 @@ const char* modeName(RenderMode mode) {
       return "auto";
     case RenderMode::impostors:
       return "impostors";
+    case RenderMode::meshes:
+      return "meshes";
     case RenderMode::triangles:
       return "triangles";
     case RenderMode::full:
@@ -38,6 +40,8 @@ Json settingsJson(const RenderSettings& settings) {
     json["kind"] = settings.kind == ImpostorKind::flat ? "flat" : "A";
     json["texelPixels"] = settings.selection.texelPixels;
   }
+  if (settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::meshes)
+    json["meshPixels"] = settings.selection.meshPixels;
   if (settings.selection.mode == RenderMode::automatic) json["triangleBudget"] = settings.selection.triangleBudget;
   return json;
 }
@@ -69,6 +73,7 @@ Json entryJson(const Entry& entry) {
           {"frameMs", {{"median", entry.frame.medianMs}, {"p95", entry.frame.p95Ms}, {"max", entry.frame.maxMs}}},
           {"cpuMs", entry.cpuMs},
           {"triangles", entry.triangles},
+          {"meshes", entry.meshes},
           {"impostors", entry.impostors},
           {"texels", entry.texels},
           {"bytesRead", entry.bytesRead},

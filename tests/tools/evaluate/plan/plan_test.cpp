@@ -32,15 +32,18 @@ TEST(RendererPlan, EveryNameHasItsClassModeAndKind) {
   std::string line;
   for (const RendererPlan& plan : *plans) line += plan.name + ":" + plan.rendererClass + " ";
   EXPECT_EQ(line,
-            "full-1spp:geometry full-4spp:geometry full-16spp:geometry triangles:geometry flat:impostor A:impostor "
-            "auto:mixed ");
+            "full-1spp:geometry full-4spp:geometry full-16spp:geometry triangles:geometry lod:geometry "
+            "flat:impostor A:impostor auto:mixed ");
   EXPECT_EQ((*plans)[2].settings.samplesPerPixel, 16);
   EXPECT_EQ((*plans)[3].settings.selection.mode, RenderMode::triangles);
-  EXPECT_EQ((*plans)[4].settings.kind, ImpostorKind::flat);
-  EXPECT_EQ((*plans)[4].settings.selection.mode, RenderMode::impostors);
-  EXPECT_EQ((*plans)[5].settings.kind, ImpostorKind::depthCorrected);
-  EXPECT_EQ((*plans)[6].settings.selection.mode, RenderMode::automatic);
-  EXPECT_EQ((*plans)[6].settings.selection.triangleBudget, 777u);
+  EXPECT_EQ((*plans)[4].settings.selection.mode, RenderMode::meshes);
+  EXPECT_EQ((*plans)[4].settings.selection.meshPixels, kLodPixels);
+  EXPECT_EQ((*plans)[7].settings.selection.meshPixels, kMeshPixels);
+  EXPECT_EQ((*plans)[5].settings.kind, ImpostorKind::flat);
+  EXPECT_EQ((*plans)[5].settings.selection.mode, RenderMode::impostors);
+  EXPECT_EQ((*plans)[6].settings.kind, ImpostorKind::depthCorrected);
+  EXPECT_EQ((*plans)[7].settings.selection.mode, RenderMode::automatic);
+  EXPECT_EQ((*plans)[7].settings.selection.triangleBudget, 777u);
 }
 
 TEST(RendererPlan, RepetitionsCountOnceAndWrongNamesAreNamed) {

@@ -1,0 +1,109 @@
+// bench_cut <pack> <camera file, or how many automatic cameras> [every nth camera] [frames]: error, triangles and time
+// of cuts with and without simplified meshes, CSV on stdout, a line for each camera and way of drawing. 1280 x 720,
+// against 64 samples. The ways take turns with each frame, so that what else the machine does falls on all alike.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "cache/schema/viewpoints.h"
+#include "runtime/renderer.h"
+#include "tools/evaluate/metrics/metrics.h"
+#include "tools/evaluate/plan/auto_cameras.h"
+#include "tools/evaluate/reference/reference.h"
+
+namespace farcell {
+namespace {
+
+constexpr uint64_t kResidentBytes = 2'000'000'000;
+constexpr Colour kBackground = {179, 204, 230};
+
+struct Way {
+  std::string name;
+  RenderSettings settings;
+};
+
+Way way(const std::string& name, RenderMode mode, int samples, double meshPixels, double texelPixels = kTexelPixels) {
+  Way result{name, {}};
+  result.settings.samplesPerPixel = samples;
+  result.settings.selection.mode = mode;
+  result.settings.selection.meshPixels = meshPixels;
+  result.settings.selection.texelPixels = texelPixels;
+  return result;
+}
+
+std::vector<Way> allWays() {
+  std::vector<Way> ways = {way("full-1spp", RenderMode::full, 1, 0), way("full-4spp", RenderMode::full, 4, 0)};
+  for (const double pixels : {0.5, 0.7, 1.0, 1.4, 2.0, 4.0})
+    ways.push_back(way(fmt::format("A-{}px", pixels), RenderMode::impostors, 4, 0, pixels));
+  for (const double pixels : {0.25, 0.5, 1.0, 2.0, 4.0})
+    ways.push_back(way(fmt::format("lod-{}px", pixels), RenderMode::meshes, 4, pixels));
+  for (const double pixels : {0.0, 0.25, 0.5, 1.0})
+    ways.push_back(way(fmt::format("auto-mesh-{}px", pixels), RenderMode::automatic, 4, pixels));
+  return ways;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+Result<std::vector<Camera>> loadCameras(const std::string& words, const Model& model) {
+  if (words.find_first_not_of("0123456789") != std::string::npos) return readCameras(words);
+  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
+  return autoCameras(model, viewpoints, std::atoi(words.c_str()));
+}
+
+Result<> benchCamera(Renderer& renderer, const Camera& camera, const ReferenceImage& reference, int frames) {
+  const std::vector<Way> ways = allWays();
+  std::vector<std::vector<double>> wallMs(ways.size()), cpuMs(ways.size());
+  std::vector<FrameStats> stats(ways.size());
+  for (int frame = -1; frame < frames; ++frame)
+    for (size_t i = 0; i < ways.size(); ++i) {
+      FARCELL_ASSIGN(stats[i], renderer.draw(camera, ways[i].settings, nullptr));
+      if (frame < 0) continue;  // reads the pack
+      wallMs[i].push_back(stats[i].wallMs);
+      cpuMs[i].push_back(stats[i].cpuMs);
+    }
+  double baseline = 0;
+  for (size_t i = 0; i < ways.size(); ++i) {
+    FrameImage image;
+    FARCELL_TRY(renderer.draw(camera, ways[i].settings, &image));
+    const Metrics metrics =
+        measure(reference, {image.width, image.height, image.rgba, image.impostorCoverage}, kBackground, nullptr);
+    if (i == 0) baseline = metrics.paperError;
+    std::printf("%s,%s,%.4f,%.4f,%.4f,%.2f,%.2f,%llu,%llu,%llu\n", camera.name.c_str(), ways[i].name.c_str(),
+                metrics.paperError / baseline, 100 * metrics.holeRate, metrics.impostorShare, median(wallMs[i]),
+                median(cpuMs[i]), static_cast<unsigned long long>(stats[i].triangles),
+                static_cast<unsigned long long>(stats[i].meshes), static_cast<unsigned long long>(stats[i].impostors));
+    std::fflush(stdout);
+  }
+  return {};
+}
+
+Result<> bench(const std::string& path, const std::string& words, size_t every, int frames) {
+  FARCELL_ASSIGN(const PackFile pack, PackFile::open(path));
+  FARCELL_ASSIGN(const std::vector<Camera> cameras, loadCameras(words, pack.directory().model));
+  FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
+  FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, kResidentBytes));
+  std::printf("camera,way,ratioToFull1spp,holePercent,impostorShare,wallMs,cpuMs,triangles,meshes,impostors\n");
+  for (size_t i = 0; i < cameras.size(); i += every) {
+    FARCELL_ASSIGN(const ReferenceImage reference, traceReference(pack, cameras[i], {}));
+    FARCELL_TRY(benchCamera(renderer, cameras[i], reference, frames));
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace farcell
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: bench_cut <pack> <cameras.json or a number> [every nth camera] [frames]\n");
+    return 2;
+  }
+  const auto every = static_cast<size_t>(argc > 3 ? std::max(1, std::atoi(argv[3])) : 1);
+  const auto result = farcell::bench(argv[1], argv[2], every, argc > 4 ? std::max(1, std::atoi(argv[4])) : 5);
+  if (!result) std::fprintf(stderr, "bench_cut: %s\n", result.error().message.c_str());
+  return result ? 0 : 1;
+}
