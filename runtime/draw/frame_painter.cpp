@@ -27,6 +27,27 @@ glm::vec4 unitColour(const std::array<uint8_t, 4>& colour) {
   return glm::vec4(colour[0], colour[1], colour[2], colour[3]) / 255.0f;
 }
 
+// Which views draw an impostor; kind B's are in order of weight.
+ImpostorViews viewsOf(const CutEntry& entry, ImpostorKind kind) {
+  ImpostorViews views;
+  views[0].index = entry.view;
+  if (kind == ImpostorKind::depthCorrected) views[1].index = entry.secondView;
+  if (kind == ImpostorKind::blended)
+    for (size_t i = 0; i < views.size(); ++i) {
+      views[i].index = static_cast<uint32_t>(entry.blend.views[i]);
+      views[i].weight = entry.blend.weights[i];
+    }
+  return views;
+}
+
+// Empty views, and those left out of the pack, have no say: the others keep their proportions.
+void shareWeights(ImpostorViews& views) {
+  std::stable_partition(views.begin(), views.end(), [](const DirectedView& view) { return view.view.layer >= 0; });
+  double sum = 0;
+  for (const DirectedView& view : views) sum += view.view.layer >= 0 ? view.weight : 0;
+  for (DirectedView& view : views) view.weight = view.view.layer >= 0 && sum > 0 ? view.weight / sum : 0;
+}
+
 }  // namespace
 
 Result<FramePainter> FramePainter::create(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes) {
@@ -62,8 +83,12 @@ Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
                  loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
   FARCELL_ASSIGN(programs.flat,
                  loadProgram({"shaders/gl/impostor_flat.vert", "shaders/gl/impostor_flat.frag", defines}));
+  std::vector<std::string> marchDefines = defines;
+  marchDefines.push_back("VIEWS 2");
   FARCELL_ASSIGN(programs.depthCorrected,
-                 loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", defines}));
+                 loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", marchDefines}));
+  marchDefines.back() = "VIEWS 3";
+  FARCELL_ASSIGN(programs.blended, loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", marchDefines}));
   return programs;
 }
 
@@ -136,24 +161,22 @@ Result<> FramePainter::paintImpostors(Frame& frame) {
   for (size_t i = frame.cut.entries.size(); i-- > 0;) {
     const CutEntry& entry = frame.cut.entries[i];
     if (entry.representation != Representation::impostor) continue;
-    FARCELL_ASSIGN(std::optional<ViewPair> pair, residentPair(entry, frame.kind, frame.counts));
-    if (!pair) {
+    FARCELL_ASSIGN(std::optional<ImpostorViews> views, residentViews(entry, frame.kind, frame.counts));
+    if (!views) {
       drawImpostors(portion, frame);
       portion.clear();
       views_.beginPortion();
-      FARCELL_ASSIGN(pair, residentPair(entry, frame.kind, frame.counts));
-      FARCELL_CHECK(pair.has_value());
+      FARCELL_ASSIGN(views, residentViews(entry, frame.kind, frame.counts));
+      FARCELL_CHECK(views.has_value());
     }
-    const auto& [nearest, second] = *pair;
-    if (nearest.view.layer < 0 && second.view.layer < 0) continue;
-    portion.push_back(
-        makeImpostorInstance(directory.model, directory.cells[entry.cell], nearest, second, frame.camera));
+    if (std::all_of(views->begin(), views->end(), [](const DirectedView& view) { return view.view.layer < 0; }))
+      continue;
+    portion.push_back(makeImpostorInstance(directory.model, directory.cells[entry.cell], *views, frame.camera));
     if (!frame.plan.tints.empty()) portion.back().tint = unitColour(frame.plan.tints[i]);
     if (frame.plan.show == Show::billboards)
       addBillboard(frame.lines, portion.back(), lineColour(entry.representation, frame.kind));
     ++frame.counts.impostors;
-    frame.counts.texels += uint64_t{nearest.view.width} * nearest.view.height;
-    frame.counts.texels += uint64_t{second.view.width} * second.view.height;
+    for (const DirectedView& view : *views) frame.counts.texels += uint64_t{view.view.width} * view.view.height;
   }
   drawImpostors(portion, frame);
   return {};
@@ -174,21 +197,22 @@ Result<> FramePainter::paintLines(Frame& frame) {
 }
 
 // Nothing when the views do not fit beside those of this portion.
-Result<std::optional<FramePainter::ViewPair>> FramePainter::residentPair(const CutEntry& entry, ImpostorKind kind,
-                                                                         PaintCounts& counts) {
-  ViewPair pair;
-  for (const auto& [view, place] : {std::pair{entry.view, &pair.nearest}, std::pair{entry.secondView, &pair.second}}) {
-    place->direction = viewpoints_.directions()[view];
-    if (kind == ImpostorKind::flat && place == &pair.second) continue;
-    const ResidentView* resident = views_.keep(entry.cell, view);
+Result<std::optional<ImpostorViews>> FramePainter::residentViews(const CutEntry& entry, ImpostorKind kind,
+                                                                 PaintCounts& counts) {
+  ImpostorViews views = viewsOf(entry, kind);
+  for (DirectedView& directed : views) {
+    if (directed.index == kNone) continue;
+    directed.direction = viewpoints_.directions()[directed.index];
+    const ResidentView* resident = views_.keep(entry.cell, directed.index);
     if (resident == nullptr) {
-      FARCELL_ASSIGN(const ViewImage image, readView(entry.cell, view, counts));
-      resident = views_.add(entry.cell, view, image);
-      if (resident == nullptr) return std::optional<ViewPair>{};
+      FARCELL_ASSIGN(const ViewImage image, readView(entry.cell, directed.index, counts));
+      resident = views_.add(entry.cell, directed.index, image);
+      if (resident == nullptr) return std::optional<ImpostorViews>{};
     }
-    place->view = *resident;
+    directed.view = *resident;
   }
-  return std::optional<ViewPair>{pair};
+  if (kind == ImpostorKind::blended) shareWeights(views);
+  return std::optional<ImpostorViews>{views};
 }
 
 void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame) {
@@ -210,7 +234,8 @@ void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& in
   } else {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    glUseProgram(frame.programs.depthCorrected.name());
+    glUseProgram(frame.kind == ImpostorKind::blended ? frame.programs.blended.name()
+                                                     : frame.programs.depthCorrected.name());
     glDrawElementsInstanced(GL_TRIANGLES, kBoxIndices, GL_UNSIGNED_SHORT, nullptr, count);
   }
 }

@@ -40,6 +40,7 @@ class FramePainter {
     GlProgram triangles;
     GlProgram flat;
     GlProgram depthCorrected;
+    GlProgram blended;
   };
   // What one frame is painted with.
   struct Frame {
@@ -55,12 +56,7 @@ class FramePainter {
   Result<> prepare(Look look);
   Result<Programs> loadPrograms(Look look) const;
   Result<> paintTriangles(const Frame& frame);
-  // What an impostor is drawn from; the flat kind has no use for the second view.
-  struct ViewPair {
-    DirectedView nearest;
-    DirectedView second;
-  };
-  Result<std::optional<ViewPair>> residentPair(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
+  Result<std::optional<ImpostorViews>> residentViews(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
   Result<> paintImpostors(Frame& frame);
   void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame);
   Result<> paintLines(Frame& frame);

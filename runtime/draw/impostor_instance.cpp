@@ -50,14 +50,14 @@ shared::ImpostorView impostorView(const DirectedView& directed, glm::dvec3 eye, 
   const glm::dvec2 cropMax(view.x0 + view.width, view.y0 + view.height);
   const double depthMaxValue = (static_cast<double>(view.depthMax) - view.depthMin) * depth.perHalfSide + 1;
   result.boxMin = plane({cropMin - kViewPadTexels, 1 - kDepthPadTexels * depthTexel}, view.layer);
-  result.boxMax = plane({cropMax + kViewPadTexels, depthMaxValue + kDepthPadTexels * depthTexel}, 0);
+  result.boxMax = plane({cropMax + kViewPadTexels, depthMaxValue + kDepthPadTexels * depthTexel}, directed.weight);
   return result;
 }
 
 }  // namespace
 
-shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const DirectedView& nearest,
-                                              const DirectedView& second, const FrameCamera& camera) {
+shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const ImpostorViews& views,
+                                              const FrameCamera& camera) {
   const double texel = texelSize(model.settings.imageSize);
   const GridBox cube = cellBox(model.grid, cell.key);
   const glm::dvec3 centreSteps = glm::dvec3(cube.min + cube.max) * 0.5;
@@ -71,8 +71,7 @@ shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellReco
   instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, 0);
   instance.eye = plane(eye, std::log2(camera.pixelAngle / (texel * halfRootSides)) + kLodBias);
   instance.tint = glm::vec4(0);
-  instance.nearest = impostorView(nearest, eye, texel);
-  instance.second = impostorView(second, eye, texel);
+  for (size_t i = 0; i < views.size(); ++i) instance.views[i] = impostorView(views[i], eye, texel);
   return instance;
 }
 

@@ -1,18 +1,24 @@
 // What the shaders need of one impostor, computed in double and relative to the eye.
 #pragma once
 
+#include <array>
+
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/view_store.h"
 
 namespace farcell {
 
-// A view and its direction (Viewpoints::directions). Empty views (layer < 0) are never hit.
+// A view, its direction (Viewpoints::directions) and its weight where views are blended. Empty views (layer < 0) are
+// never hit.
 struct DirectedView {
-  glm::dvec3 direction;
+  uint32_t index = kNone;  // kNone: no view
+  glm::dvec3 direction{0, 0, 1};
   ResidentView view;
+  double weight = 0;
 };
+using ImpostorViews = std::array<DirectedView, shared::kImpostorViews>;
 
-shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const DirectedView& nearest,
-                                              const DirectedView& second, const FrameCamera& camera);
+shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const ImpostorViews& views,
+                                              const FrameCamera& camera);
 
 }  // namespace farcell

@@ -29,7 +29,7 @@ void addBox(std::vector<LineEnd>& lines, const GridBox& box, glm::dvec3 eyeSteps
 
 void addBillboard(std::vector<LineEnd>& lines, const shared::ImpostorInstance& instance,
                   std::array<uint8_t, 3> colour) {
-  const shared::ImpostorView& view = instance.nearest;
+  const shared::ImpostorView& view = instance.views[0];
   if (view.boxMin.x > view.boxMax.x) return;
   const double texel = static_cast<double>(instance.boxMin.w);
   const glm::dvec3 right(view.textureX.x, view.textureX.y, view.textureX.z);

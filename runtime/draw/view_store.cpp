@@ -18,7 +18,7 @@ uint64_t layerBytes(int imageSize, bool withNormals) {
 int layerLimit(uint64_t bytesPerLayer, uint64_t budgetBytes) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
-  return static_cast<int>(std::clamp<uint64_t>(budgetBytes / bytesPerLayer, 2, static_cast<uint64_t>(limit)));
+  return static_cast<int>(std::clamp<uint64_t>(budgetBytes / bytesPerLayer, 3, static_cast<uint64_t>(limit)));
 }
 
 GlTexture createArray(GLenum format, int imageSize, int levels, int layers, GLenum minFilter, GLenum magFilter) {

@@ -22,7 +22,7 @@ struct ResidentView {
 
 class ViewStore {
  public:
-  // REQUIRES: a current context. Two layers, an impostor's, are always held.
+  // REQUIRES: a current context. Three layers, an impostor's, are always held.
   // withNormals: of packs whose views have them.
   ViewStore(int imageSize, uint64_t budgetBytes, bool withNormals = false);
 

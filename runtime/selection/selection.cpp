@@ -200,8 +200,11 @@ class Selector {
     glm::dvec3 direction = view_.eye - glm::dvec3(content.min + content.max) * 0.5;
     if (direction == glm::dvec3(0)) direction = back_;
     const auto [nearest, second] = viewpoints_.nearestTwo(direction);
+    const Viewpoints::Triple blend = viewpoints_.hasTriangles()
+                                         ? viewpoints_.nearestThree(direction)
+                                         : Viewpoints::Triple{{nearest, second, second}, {1, 0, 0}};
     cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(nearest),
-                            static_cast<uint32_t>(second), texelPixels(directory_.cells[index])});
+                            static_cast<uint32_t>(second), blend, texelPixels(directory_.cells[index])});
   }
   void addMesh(uint32_t index) {
     const CellRecord& cell = directory_.cells[index];

@@ -49,7 +49,8 @@ struct CutEntry {
   // Impostors: the view of the smallest angle to (eye - centre of the cell's content). Content is often thin and off
   // the cube's centre (a city in its cells): seen from near, the direction to the cube would choose a wrong view.
   uint32_t view = 0;
-  uint32_t secondView = 0;  // the next nearest: asked where the first saw no surface
+  uint32_t secondView = 0;     // the next nearest: asked where the first saw no surface
+  Viewpoints::Triple blend{};  // kind B: the views of the triangle around the same direction
   // Of how it is drawn, pixels, at the nearest point of the content; infinite inside its box.
   double errorPixels = 0;
 };

@@ -1,4 +1,4 @@
-// Kind A: where a ray through the pixel meets the surface that a view's depth image describes, the view's colour.
+// Kind A (VIEWS 2): where a ray through the pixel meets the surface that a view's depth image describes, the view's colour.
 //
 // Points of the ray are point(s) = boxPoint + s (boxPoint - eye): s = -1 is the eye, s = 0 the back of the box. The ray
 // is clipped to the padded content box and to the box of what the view holds, and marched from its near end: one loop,
@@ -7,6 +7,9 @@
 //
 // A hit is on the surface, or on a jump of the depth image, where the view did not see what lies behind a silhouette.
 // There, and where the ray meets nothing, the second nearest view is asked; its surface is believed, its jumps are not.
+//
+// Kind B (VIEWS 3): the same, then the third view; each of the three that sees the point found has its say there. A view
+// of weight 0 changes nothing, so that the picture stays the same when the eye moves on to the next three.
 #include "shaders/shared/draw.h"
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
@@ -14,11 +17,10 @@ layout(binding = 0) uniform sampler2DArray colours;
 layout(binding = 1) uniform sampler2DArray depths;
 
 in vec3 boxPoint;
-in vec3 nearestPoint, secondPoint;
+in vec3 viewPoint[VIEWS];
 flat in vec4 eye;
 flat in vec3 boxMin, boxMax;
-flat in vec4 nearestEye, nearestMin, secondEye, secondMin;
-flat in vec3 nearestMax, secondMax;
+flat in vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
 
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
@@ -35,6 +37,10 @@ const float kEnteredBehindTexels = 6.0;  // how far below the surface a ray may 
 const float kSurfaceTexels = 3.0;        // a crossing that ends farther below the depth image is a jump of it
 const float kEmptyAlpha = 0.004;
 const int kAttempts = 6;                 // hits looked at when the nearest ones are empty or jumps
+const float kAgreeTexels = 3.0;          // a view agrees where its depth is that near; at twice that, not at all
+const float kLeastWeight = 0.02;         // of the view a point was found in
+const float kFullThirdWeight = 0.1;      // from which on what the third view alone sees counts in full
+const float kNowhere = 1e9;
 const int kMaxLookups = 1 + kMarchSteps + kBisections;
 
 // What the next look-up is for.
@@ -64,9 +70,18 @@ float depthValue(vec2 texel, float layer) {
   return texelFetch(depths, ivec3(nearest, int(layer)), 0).r * 255.0;
 }
 
+// Of a view at a texel that the ray reaches at s.
+vec4 colourAt(vec2 texel, float layer, float s) {
+  float lod = eye.w - frame.image.w + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
+  return textureLod(colours, vec3(texel * frame.image.y, layer), lod);
+}
+
 // Looks through one view. point: boxPoint in its texture space; from: its eye, w: edge of a texel in depth values;
-// low: its box, w: its layer. Sets `found` to the colour of what it returns, `place` to its texel and its s.
-int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 found, inout vec3 place) {
+// low: its box, w: its layer. Sets `found` to the colour of what it returns, `place` to its texel and its s, and `hidden`
+// to where the ray first was behind the surface, where the view knows nothing: before that, and where it is nowhere,
+// there is nothing to be seen.
+int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 found, inout vec3 place,
+         inout float hidden) {
   vec3 along = point - from.xyz;
   vec2 inView = slab(point, along, low.xyz, high);
   float first = max(max(inBox.x, inView.x), -1.0);
@@ -91,6 +106,7 @@ int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 foun
       float known = depthValue(here.xy, low.w);
       float height = known > 0.0 ? here.z - known : 1e9;
       bool under = height <= 0.0;
+      hidden = under ? min(hidden, s - stepLength) : hidden;
       bool advance = false;
       if (state == kMarch) {
         bool crossed = under && (step == 0.0 ? height > -kEnteredBehindTexels * texel : above);
@@ -120,8 +136,7 @@ int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 foun
     bool onSurface = depthBelow < kSurfaceTexels * texel;
     if (onSurface || result == kNothing) {
       vec2 hit = point.xy + s * along.xy;
-      float lod = eye.w - frame.image.w + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
-      vec4 seen = textureLod(colours, vec3(hit * frame.image.y, low.w), lod);
+      vec4 seen = colourAt(hit, low.w, s);
       if (seen.a > kEmptyAlpha) {
         found = seen;
         place = vec3(hit, s);
@@ -137,28 +152,67 @@ int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 foun
   return result;
 }
 
-// What is shown of what was seen at a place of one of the two views.
-vec4 shown(vec4 seen, bool inNearest, vec3 place, vec3 along) {
+// What the ray found, and where.
+struct Found {
+  vec4 seen;
+  vec3 place;  // texel of the view, s
+  int view;
+};
+
+// What the ray through a point of the box's back finds. points: the same one in the spaces of the views. What the
+// nearest view knows to be empty need not be looked for in the others.
+Found find(vec3 local, vec3 points[VIEWS]) {
+  vec2 inBox = slab(local, local - eye.xyz, boxMin, boxMax);
+  Found found = Found(vec4(0.0), vec3(0.0), 0);
+  float hidden = kNowhere;
+  bool done = look(points[0], viewEye[0], viewMin[0], viewMax[0].xyz, inBox, found.seen, found.place, hidden) == kSurface;
+  if (viewMin[0].x < viewMax[0].x) inBox.x = max(inBox.x, hidden);
+  for (int i = 1; i < VIEWS && !done && inBox.x < inBox.y; ++i) {
+    Found other = Found(vec4(0.0), vec3(0.0), i);
+    float ignored = kNowhere;
+    done = look(points[i], viewEye[i], viewMin[i], viewMax[i].xyz, inBox, other.seen, other.place, ignored) == kSurface;
+    if (done) found = other;
+  }
+  return found;
+}
+
+#if VIEWS == 3
+// The mean of what was found and of what the other views see there, by weight x agreement.
+vec4 blended(Found found, vec3 points[VIEWS]) {
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < VIEWS; ++i) {
+    vec3 there = points[i] + found.place.z * (points[i] - viewEye[i].xyz);
+    float known = depthValue(there.xy, viewMin[i].w);
+    float off = abs(there.z - known) / (kAgreeTexels * viewEye[i].w);
+    float agreement = known > 0.0 ? clamp(2.0 - off, 0.0, 1.0) : 0.0;
+    bool own = i == found.view;
+    float weight = own ? max(viewMax[i].w, kLeastWeight) : viewMax[i].w * agreement;
+    vec4 seen = own ? found.seen : colourAt(there.xy, viewMin[i].w, found.place.z);
+    sum += weight * seen;
+    weights += weight;
+  }
+  vec4 mean = sum / weights;
+  // What the third view alone sees comes and goes with its weight.
+  float fade = found.view == 2 ? clamp(viewMax[2].w / kFullThirdWeight, 0.0, 1.0) : 1.0;
+  return found.seen.a > 0.0 ? fade * mean : vec4(0.0);
+}
+#endif
+
+// What is shown of what the ray through a point of the box's back finds.
+vec4 seenThrough(vec3 local, vec3 points[VIEWS]) {
+  Found found = find(local, points);
+#if VIEWS == 3
+  vec4 seen = blended(found, points);
+#else
+  vec4 seen = found.seen;
+#endif
 #ifdef SHOW
-  return shownInstead(seen, shownInstance, inNearest, place.xy, (1.0 + place.z) / gl_FragCoord.w, along);
+  return shownInstead(seen, shownInstance, found.view, found.place.xy, (1.0 + found.place.z) / gl_FragCoord.w,
+                      local - eye.xyz);
 #else
   return seen;
 #endif
-}
-
-// What the ray through a point of the box's back sees; the three points are the same one in three spaces.
-vec4 seenThrough(vec3 local, vec3 inNearest, vec3 inSecond) {
-  vec2 inBox = slab(local, local - eye.xyz, boxMin, boxMax);
-  vec3 along = local - eye.xyz;
-  vec4 seen = vec4(0.0);
-  vec3 place = vec3(0.0);
-  if (look(inNearest, nearestEye, nearestMin, nearestMax, inBox, seen, place) == kSurface)
-    return shown(seen, true, place, along);
-  vec4 other = vec4(0.0);
-  vec3 otherPlace = vec3(0.0);
-  if (look(inSecond, secondEye, secondMin, secondMax, inBox, other, otherPlace) == kSurface)
-    return shown(other, false, otherPlace, along);
-  return shown(seen, true, place, along);
 }
 
 // Where the object's outline differs from the view's, no texel knows how much of the pixel it covers: rays do.
@@ -166,15 +220,18 @@ const vec2 kRayOffsets[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), ve
 
 void main() {
   vec3 localX = dFdx(boxPoint), localY = dFdy(boxPoint);
-  vec3 nearestX = dFdx(nearestPoint), nearestY = dFdy(nearestPoint);
-  vec3 secondX = dFdx(secondPoint), secondY = dFdy(secondPoint);
+  vec3 pointX[VIEWS], pointY[VIEWS];
+  for (int i = 0; i < VIEWS; ++i) {
+    pointX[i] = dFdx(viewPoint[i]);
+    pointY[i] = dFdy(viewPoint[i]);
+  }
   colour = vec4(0.0);
   int rays = int(frame.image.z);
   for (int ray = 0; ray < rays; ++ray) {
     vec2 offset = rays == 1 ? vec2(0.0) : kRayOffsets[ray];
-    colour += seenThrough(boxPoint + offset.x * localX + offset.y * localY,
-                          nearestPoint + offset.x * nearestX + offset.y * nearestY,
-                          secondPoint + offset.x * secondX + offset.y * secondY);
+    vec3 points[VIEWS];
+    for (int i = 0; i < VIEWS; ++i) points[i] = viewPoint[i] + offset.x * pointX[i] + offset.y * pointY[i];
+    colour += seenThrough(boxPoint + offset.x * localX + offset.y * localY, points);
   }
   colour *= 1.0 / frame.image.z;
   impostorCoverage = colour.aaaa;

@@ -1,4 +1,4 @@
-// Kind A: the back faces of the cell's content box, so that each ray through the box gets one fragment, also when the
+// Kinds A and B: the back faces of the cell's content box, so that each ray through the box gets one fragment, also when the
 // eye is inside. Cells are disjoint boxes: the box's own depth orders an impostor against the triangles of all others.
 #include "shaders/shared/draw.h"
 
@@ -6,11 +6,10 @@ layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instances[]; };
 
 out vec3 boxPoint;              // local
-out vec3 nearestPoint, secondPoint;  // in the texture spaces of the two views
-flat out vec4 eye;                   // local; w: level of detail at clip w = 1
-flat out vec3 boxMin, boxMax;        // padded, local
-flat out vec4 nearestEye, nearestMin, secondEye, secondMin;
-flat out vec3 nearestMax, secondMax;
+out vec3 viewPoint[VIEWS];      // in the texture spaces of the views
+flat out vec4 eye;              // local; w: level of detail at clip w = 1
+flat out vec3 boxMin, boxMax;   // padded, local
+flat out vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
 #ifdef SHOW
 flat out int shownInstance;
 #endif
@@ -31,14 +30,12 @@ void main() {
 #ifdef SHOW
   shownInstance = gl_InstanceID;
 #endif
-  nearestPoint = texturePoint(instance.nearest, boxPoint);
-  nearestEye = instance.nearest.eye;
-  nearestMin = instance.nearest.boxMin;
-  nearestMax = instance.nearest.boxMax.xyz;
-  secondPoint = texturePoint(instance.second, boxPoint);
-  secondEye = instance.second.eye;
-  secondMin = instance.second.boxMin;
-  secondMax = instance.second.boxMax.xyz;
+  for (int i = 0; i < VIEWS; ++i) {
+    viewPoint[i] = texturePoint(instance.views[i], boxPoint);
+    viewEye[i] = instance.views[i].eye;
+    viewMin[i] = instance.views[i].boxMin;
+    viewMax[i] = instance.views[i].boxMax;
+  }
 
   vec3 relative = instance.centre.xyz + instance.centre.w * boxPoint;
   float w = dot(frame.clipW.xyz, relative);

@@ -20,7 +20,7 @@ void main() {
   float lod = layerAndLod.y - log2(gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
   colour = textureLod(colours, vec3(texel * frame.image.y, layerAndLod.x), lod);
 #ifdef SHOW
-  colour = shownInstead(colour, shownInstance, true, texel, 1.0 / gl_FragCoord.w, along);
+  colour = shownInstead(colour, shownInstance, 0, texel, 1.0 / gl_FragCoord.w, along);
 #endif
   impostorCoverage = colour.aaaa;
 }

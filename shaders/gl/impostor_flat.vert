@@ -16,7 +16,7 @@ out vec3 along;  // from the eye
 void main() {
   ImpostorInstance instance = instances[gl_InstanceID];
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  ImpostorView view = instance.nearest;
+  ImpostorView view = instance.views[0];
   texel = mix(view.boxMin.xy, view.boxMax.xy, corner);
   float edge = instance.boxMin.w;
   vec3 toward = normalize(view.textureZ.xyz);

@@ -1,4 +1,4 @@
-// Included by both kinds of impostors when they show something else than the picture: SHOW_TINT, SHOW_DEPTH or
+// Included by all kinds of impostors when they show something else than the picture: SHOW_TINT, SHOW_DEPTH or
 // SHOW_NORMALS as in shaders/shared/show.h, BAKED_NORMALS where views hold normals. After `frame` and `depths`.
 #include "shaders/shared/shading.h"
 #include "shaders/shared/show.h"
@@ -34,17 +34,15 @@ vec3 impostorNormal(ImpostorView view, ivec2 texel) {
 }
 #endif
 
-// `seen`: premultiplied, at a texel of the nearest or the second view, `depth` root sides along the view axis from the
+// `seen`: premultiplied, at a texel of one of the views, `depth` root sides along the view axis from the
 // eye; `along` points from there.
-vec4 shownInstead(vec4 seen, int instance, bool inNearest, vec2 texel, float depth, vec3 along) {
+vec4 shownInstead(vec4 seen, int instance, int inView, vec2 texel, float depth, vec3 along) {
   if (seen.a <= 0.0) return seen;
 #if defined(SHOW_TINT)
   return tinted(seen, instances[instance].tint.xyz);
 #elif defined(SHOW_DEPTH)
   return vec4(vec3(depthGrey(depth, frame.depthScale)), 1.0) * seen.a;
 #else
-  ImpostorView view = instances[instance].nearest;
-  if (!inNearest) view = instances[instance].second;
-  return vec4(normalColour(impostorNormal(view, ivec2(floor(texel))), along), 1.0) * seen.a;
+  return vec4(normalColour(impostorNormal(instances[instance].views[inView], ivec2(floor(texel))), along), 1.0) * seen.a;
 #endif
 }

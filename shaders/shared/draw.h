@@ -28,18 +28,18 @@ struct ImpostorView {
   vec4 textureZ;
   vec4 eye;     // xyz: the eye, texture space; w: edge of a texel in depth values
   vec4 boxMin;  // xyz: box of the view's content, texture space (an empty view: min > max); w: layer in the arrays
-  vec4 boxMax;
+  vec4 boxMax;  // w: its weight where views are blended
 };
 
-// One impostor: the view nearest to the eye, and the second nearest for what the first did not see.
+// One impostor: its views, the first to be asked first (impostor_kind.h says which).
+const int kImpostorViews = 3;
 struct ImpostorInstance {
   vec4 centre;  // xyz: cell centre - eye, grid steps; w: half side, grid steps
   vec4 boxMin;  // xyz: content box, local; w: edge of a texel, half sides
   vec4 boxMax;
   vec4 eye;   // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
   vec4 tint;  // xyz: colour for what stands for cells instead of showing them (show.h)
-  ImpostorView nearest;
-  ImpostorView second;
+  ImpostorView views[kImpostorViews];
 };
 
 // A cell's content box is drawn larger by this share of a texel, so that neighbours' filtered edges meet.

@@ -13,7 +13,8 @@ const std::map<std::string, RenderMode> kModes = {{"auto", RenderMode::automatic
                                                   {"meshes", RenderMode::meshes},
                                                   {"triangles", RenderMode::triangles},
                                                   {"full", RenderMode::full}};
-const std::map<std::string, ImpostorKind> kKinds = {{"flat", ImpostorKind::flat}, {"A", ImpostorKind::depthCorrected}};
+const std::map<std::string, ImpostorKind> kKinds = {
+    {"flat", ImpostorKind::flat}, {"A", ImpostorKind::depthCorrected}, {"B", ImpostorKind::blended}};
 const std::map<std::string, Show> kShows = {
     {"picture", Show::picture}, {"cells", Show::cells}, {"billboards", Show::billboards}, {"levels", Show::levels},
     {"kinds", Show::kinds},     {"error", Show::error}, {"depth", Show::depth},           {"normals", Show::normals}};
@@ -32,7 +33,7 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
                  "what is drawn; meshes: no impostors, triangles: all leaves in view, full: all leaves")
       ->check(CLI::IsMember(kModes))
       ->capture_default_str();
-  app.add_option("--kind", options.kind, "of impostors: A is depth-corrected")
+  app.add_option("--kind", options.kind, "of impostors: A is depth-corrected, B blends three views of A")
       ->check(CLI::IsMember(kKinds))
       ->capture_default_str();
   app.add_option("--show", options.show,

@@ -32,7 +32,8 @@ RenderMode nextMode(RenderMode mode) {
 }
 
 ImpostorKind nextKind(ImpostorKind kind) {
-  return kind == ImpostorKind::flat ? ImpostorKind::depthCorrected : ImpostorKind::flat;
+  if (kind == ImpostorKind::flat) return ImpostorKind::depthCorrected;
+  return kind == ImpostorKind::depthCorrected ? ImpostorKind::blended : ImpostorKind::flat;
 }
 
 Result<> writePicture(const std::filesystem::path& path, const FrameImage& image) {

@@ -117,8 +117,9 @@ TEST_F(SharedShaders, structuresLieAlikeInCppAndInTheDriver) {
             static_cast<GLint>(offsetof(ImpostorInstance, boxMax)));
   EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].tint"),
             static_cast<GLint>(offsetof(ImpostorInstance, tint)));
-  EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].second.boxMax"),
-            static_cast<GLint>(offsetof(ImpostorInstance, second) + offsetof(shared::ImpostorView, boxMax)));
+  EXPECT_EQ(offsetOf(*program, GL_BUFFER_VARIABLE, "instances[0].views[1].boxMax"),
+            static_cast<GLint>(offsetof(ImpostorInstance, views) + sizeof(shared::ImpostorView) +
+                               offsetof(shared::ImpostorView, boxMax)));
   const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "instances[0].centre");
   const GLenum property = GL_TOP_LEVEL_ARRAY_STRIDE;
   GLint stride = 0;

@@ -24,14 +24,15 @@ constexpr std::array kKnown = {
     Known{"lod", "geometry", RenderMode::meshes, 4, ImpostorKind::depthCorrected, false},
     Known{"flat", "impostor", RenderMode::impostors, 4, ImpostorKind::flat, false},
     Known{"A", "impostor", RenderMode::impostors, 4, ImpostorKind::depthCorrected, false},
+    Known{"B", "impostor", RenderMode::impostors, 4, ImpostorKind::blended, false},
     Known{"auto", "mixed", RenderMode::automatic, 4, ImpostorKind::depthCorrected, false},
+    Known{"auto-B", "mixed", RenderMode::automatic, 4, ImpostorKind::blended, false},
 };
 
 Result<std::set<std::string>> parseNames(const std::string& names) {
   std::set<std::string> asked;
   std::istringstream stream(names);
   for (std::string name; std::getline(stream, name, ',');) {
-    if (name == "B") return fail(ErrorKind::unsupported, "renderer B (three views blended) is not in this version");
     if (std::none_of(kKnown.begin(), kKnown.end(), [&](const Known& known) { return known.name == name; }))
       return fail(ErrorKind::invalidArgument, "renderers: expected some of {}, found '{}'", kAllRenderers, name);
     asked.insert(name);

@@ -18,10 +18,10 @@ struct RendererPlan {
 
 inline constexpr const char* kBaselineRenderer = "full-1spp";  // what ratios are relative to
 inline constexpr double kLodPixels = 1;                        // as viewers of mesh hierarchies have it
-inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,triangles,lod,flat,A,auto";
+inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,triangles,lod,flat,A,B,auto,auto-B";
 
 // names: comma-separated, any order, repetitions allowed. full-1spp and full-4spp always come first: full geometry is
-// what the user would otherwise look at. invalidArgument for an unknown name, unsupported for B.
+// what the user would otherwise look at. invalidArgument for an unknown name.
 // The level rule and the budget are `selection`'s; its mode is the renderer's own, and lod's meshes have an error of at
 // most lodPixels.
 Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,

@@ -32,12 +32,24 @@ const char* modeName(RenderMode mode) {
   return "";
 }
 
+const char* kindName(ImpostorKind kind) {
+  switch (kind) {
+    case ImpostorKind::flat:
+      return "flat";
+    case ImpostorKind::depthCorrected:
+      return "A";
+    case ImpostorKind::blended:
+      return "B";
+  }
+  return "";
+}
+
 Json settingsJson(const RenderSettings& settings) {
   const bool impostors =
       settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::impostors;
   Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
   if (impostors) {
-    json["kind"] = settings.kind == ImpostorKind::flat ? "flat" : "A";
+    json["kind"] = kindName(settings.kind);
     json["texelPixels"] = settings.selection.texelPixels;
   }
   if (settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::meshes)

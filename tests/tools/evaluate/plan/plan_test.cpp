@@ -33,17 +33,20 @@ TEST(RendererPlan, EveryNameHasItsClassModeAndKind) {
   for (const RendererPlan& plan : *plans) line += plan.name + ":" + plan.rendererClass + " ";
   EXPECT_EQ(line,
             "full-1spp:geometry full-4spp:geometry full-16spp:geometry triangles:geometry lod:geometry "
-            "flat:impostor A:impostor auto:mixed ");
+            "flat:impostor A:impostor B:impostor auto:mixed auto-B:mixed ");
   EXPECT_EQ((*plans)[2].settings.samplesPerPixel, 16);
   EXPECT_EQ((*plans)[3].settings.selection.mode, RenderMode::triangles);
   EXPECT_EQ((*plans)[4].settings.selection.mode, RenderMode::meshes);
   EXPECT_EQ((*plans)[4].settings.selection.meshPixels, kLodPixels);
-  EXPECT_EQ((*plans)[7].settings.selection.meshPixels, kMeshPixels);
   EXPECT_EQ((*plans)[5].settings.kind, ImpostorKind::flat);
   EXPECT_EQ((*plans)[5].settings.selection.mode, RenderMode::impostors);
   EXPECT_EQ((*plans)[6].settings.kind, ImpostorKind::depthCorrected);
-  EXPECT_EQ((*plans)[7].settings.selection.mode, RenderMode::automatic);
-  EXPECT_EQ((*plans)[7].settings.selection.triangleBudget, 777u);
+  EXPECT_EQ((*plans)[7].settings.kind, ImpostorKind::blended);
+  EXPECT_EQ((*plans)[8].settings.selection.mode, RenderMode::automatic);
+  EXPECT_EQ((*plans)[8].settings.kind, ImpostorKind::depthCorrected);
+  EXPECT_EQ((*plans)[8].settings.selection.triangleBudget, 777u);
+  EXPECT_EQ((*plans)[8].settings.selection.meshPixels, kMeshPixels);
+  EXPECT_EQ((*plans)[9].settings.kind, ImpostorKind::blended);
 }
 
 TEST(RendererPlan, RepetitionsCountOnceAndWrongNamesAreNamed) {
@@ -54,9 +57,6 @@ TEST(RendererPlan, RepetitionsCountOnceAndWrongNamesAreNamed) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().kind, ErrorKind::invalidArgument);
   EXPECT_NE(wrong.error().message.find("'impostor'"), std::string::npos);
-  const auto reserved = planRenderers("B", 10, 10, {});
-  ASSERT_FALSE(reserved);
-  EXPECT_EQ(reserved.error().kind, ErrorKind::unsupported);
   EXPECT_FALSE(planRenderers("auto,,A", 10, 10, {}));
 }
 

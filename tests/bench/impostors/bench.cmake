@@ -1,0 +1,1 @@
+farcell_program(tests/bench/impostors bench_impostors DEPS farcell_runtime)
