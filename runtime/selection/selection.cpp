@@ -50,37 +50,43 @@ double distanceSteps(glm::dvec3 eye, const GridBox& box) {
   return glm::length(eye - nearest);
 }
 
-constexpr double kLargest = 1e300;  // of errors: what is inside a content box still compares
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// A cell in view that no cell above it stands for as an impostor. Errors are in multiples of what they may be;
-// kNever: it cannot be drawn so.
+// The budget is met by raising the price of a triangle: at this one none is worth it, whatever the size of a picture.
+constexpr double kHighestPrice = 1e12;
+constexpr double kPriceFactor = 16;
+constexpr int kPriceSteps = 20;  // halvings of the logarithm between two prices
+
+// A cell in view that no cell above it stands for as an impostor. Losses: of each way to draw it (selection.h), without
+// the price of its triangles; kNever: it is not drawn so.
 struct Node {
   uint32_t cell;
-  uint32_t end;  // index after the last node below it
-  double viewError = kNever;
-  double meshError = kNever;
-  uint64_t triangles = 0;  // of the cell as `drawn` says, with all below it
+  uint32_t end = 0;   // index after the last node below it
+  bool open = false;  // those below it may be drawn instead
+  double areaPixels = 0;
+  double viewLoss = kNever;
+  double meshLoss = kNever;
+  // As `drawn` says, with all below it.
   enum class Drawn : uint8_t { asViews, asMesh, byChildren } drawn = Drawn::byChildren;
+  double cost = 0;  // loss and the price of triangles
+  uint64_t triangles = 0;
 };
 
 class Selector {
  public:
-  Selector(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, const View& view,
-           const SelectionSettings& settings)
+  Selector(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, const View& view, int width,
+           int height, const SelectionSettings& settings)
       : directory_(directory),
         viewpoints_(viewpoints),
         back_(cameraAxes(camera).back),
         view_(view),
         settings_(settings),
-        imageTexel_(texelSize(directory.model.settings.imageSize)) {}
+        imageTexel_(texelSize(directory.model.settings.imageSize)),
+        picturePixels_(static_cast<double>(width) * height) {}
 
   Cut run() {
     if (!directory_.cells.empty()) visit(0);
-    if (settings_.mode == RenderMode::automatic)
-      decideWithinBudget();
-    else
-      decide(settings_.mode == RenderMode::impostors ? kLargest : 1);
+    decideWithinBudget();
     collect();
     return std::move(cut_);
   }
@@ -95,9 +101,16 @@ class Selector {
       return;
     }
     const size_t place = nodes_.size();
-    nodes_.push_back({.cell = index, .end = 0, .viewError = viewError(cell), .meshError = meshError(cell)});
-    if (nodes_[place].viewError > 1) visitChildren(cell);
-    nodes_[place].end = static_cast<uint32_t>(nodes_.size());
+    const bool views = mayHaveViews() && cell.firstViewPage != kNone;
+    const bool far = views && farEnough(cell);
+    nodes_.push_back({.cell = index, .open = cell.childCount > 0 && !far});
+    if (nodes_[place].open) visitChildren(cell);
+    Node& node = nodes_[place];
+    node.end = static_cast<uint32_t>(nodes_.size());
+    node.areaPixels = node.open ? areaBelow(place) : areaPixels(cell);
+    if (views && !node.open) node.viewLoss = node.areaPixels * impostorLoss(texelPixels(cell));
+    if (mayBeMesh(cell) && !far)
+      node.meshLoss = settings_.mode == RenderMode::automatic ? node.areaPixels * meshLoss(meshPixels(cell)) : 0;
   }
 
   // A ray from the eye crosses each plane between the children at most once, away from the eye's side: an octant can
@@ -117,26 +130,35 @@ class Selector {
       if (children[i ^ eyeOctant] != kNone) visit(children[i ^ eyeOctant]);
   }
 
-  // Views of an inner cell keep to what they may or its children's are better; a leaf's are what is left.
-  double viewError(const CellRecord& cell) const {
-    const bool wanted = settings_.mode == RenderMode::automatic || settings_.mode == RenderMode::impostors;
-    if (!wanted || cell.firstViewPage == kNone) return kNever;
-    const double error = std::min(texelPixels(cell) / settings_.texelPixels, kLargest);
-    if (error <= 1 && outsideSphere(cell)) return error;
-    // The least above 1: a leaf whose sphere the eye is in has no impostor that keeps to what it may.
-    return cell.childCount == 0 ? std::max(error, std::nextafter(1.0, 2.0)) : kNever;
+  bool mayHaveViews() const {
+    return settings_.mode == RenderMode::automatic || settings_.mode == RenderMode::impostors;
   }
-  double meshError(const CellRecord& cell) const {
-    if (cell.childCount == 0) return 0;
+  bool mayBeMesh(const CellRecord& cell) const {
+    if (cell.childCount == 0) return settings_.mode != RenderMode::impostors || cell.firstViewPage == kNone;
     const bool wanted = settings_.mode == RenderMode::automatic || settings_.mode == RenderMode::meshes;
-    if (!wanted || settings_.meshPixels == 0 || cell.firstGeometryPage == kNone) return kNever;
-    return std::min(meshPixels(cell) / settings_.meshPixels, kLargest);
+    return wanted && settings_.meshPixels > 0 && cell.firstGeometryPage != kNone &&
+           meshPixels(cell) <= settings_.meshPixels;
   }
 
-  bool outsideSphere(const CellRecord& cell) const {
+  bool farEnough(const CellRecord& cell) const {
     const GridBox cube = cellBox(directory_.model.grid, cell.key);
     const double halfSide = (cube.max.x - cube.min.x) * 0.5;
-    return glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) > std::sqrt(3.0) * halfSide;
+    if (glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) <= std::sqrt(3.0) * halfSide) return false;
+    return texelPixels(cell) <= settings_.texelPixels;
+  }
+
+  // What a convex body of the box's size covers, mean over directions: a quarter of its surface (Cauchy).
+  double areaPixels(const CellRecord& cell) const {
+    const glm::dvec3 size =
+        glm::dvec3(cell.content.max - cell.content.min) / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
+    const double area = (size.x * size.y + size.y * size.z + size.z * size.x) / 2;
+    return area < picturePixels_ ? area : picturePixels_;  // also where the eye is in the box
+  }
+  double areaBelow(size_t place) const {
+    double area = 0;
+    for (size_t child = place + 1; child < nodes_[place].end; child = nodes_[child].end)
+      area += nodes_[child].areaPixels;
+    return area;
   }
 
   // Edge of a texel of the cell's views, and geometric error of its mesh.
@@ -145,39 +167,51 @@ class Selector {
     return imageTexel_ * halfSide / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
   }
   double meshPixels(const CellRecord& cell) const {
-    if (cell.geometricError == 0) return 0;
+    if (cell.geometricError == 0) return 0;  // all leaves
     const double errorSteps = cell.geometricError / directory_.model.grid.step();
     return errorSteps / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
   }
 
-  // The fewest triangles with errors of at most `allowed`; returns how many. Of equal counts, the smaller errors.
-  uint64_t decide(double allowed) {
+  // The cut of the least loss where a triangle has this price; returns its triangles. A higher price never gives more.
+  uint64_t decide(double price) {
     for (size_t i = nodes_.size(); i-- > 0;) {
       Node& node = nodes_[i];
-      const CellRecord& cell = directory_.cells[node.cell];
-      node.triangles = 0;
       node.drawn = Node::Drawn::byChildren;
-      for (size_t child = i + 1; child < node.end; child = nodes_[child].end) node.triangles += nodes_[child].triangles;
-      if (node.viewError <= allowed) {
-        node.drawn = Node::Drawn::asViews;
-      } else if (cell.childCount == 0 || (node.meshError <= allowed && cell.meshTriangles < node.triangles)) {
+      node.cost = node.open ? 0 : kNever;
+      node.triangles = 0;
+      for (size_t child = i + 1; child < node.end; child = nodes_[child].end) {
+        node.cost += nodes_[child].cost;
+        node.triangles += nodes_[child].triangles;
+      }
+      const uint64_t triangles = directory_.cells[node.cell].meshTriangles;
+      const double meshCost = node.meshLoss + price * static_cast<double>(triangles);
+      if (meshCost < node.cost) {
         node.drawn = Node::Drawn::asMesh;
-        node.triangles = cell.meshTriangles;
+        node.cost = meshCost;
+        node.triangles = triangles;
+      }
+      if (node.viewLoss < node.cost) {
+        node.drawn = Node::Drawn::asViews;
+        node.cost = node.viewLoss;
+        node.triangles = 0;
       }
     }
     return nodes_.empty() ? 0 : nodes_[0].triangles;
   }
 
   void decideWithinBudget() {
-    if (decide(1) <= settings_.triangleBudget) return;
-    std::vector<double> steps;  // where what is allowed makes a difference
-    for (const Node& node : nodes_)
-      for (const double error : {node.viewError, node.meshError})
-        if (error > 1 && error < kNever) steps.push_back(error);
-    std::sort(steps.begin(), steps.end());
-    const auto least = std::partition_point(steps.begin(), steps.end(),
-                                            [&](double allowed) { return decide(allowed) > settings_.triangleBudget; });
-    decide(least == steps.end() ? kLargest : *least);
+    double low = kTrianglePrice;
+    if (decide(low) <= settings_.triangleBudget || settings_.mode != RenderMode::automatic) return;
+    double high = low * kPriceFactor;
+    while (high < kHighestPrice && decide(high) > settings_.triangleBudget) {
+      low = high;
+      high *= kPriceFactor;
+    }
+    for (int step = 0; step < kPriceSteps; ++step) {
+      const double middle = std::sqrt(low * high);
+      (decide(middle) > settings_.triangleBudget ? low : high) = middle;
+    }
+    decide(high);
   }
 
   void collect() {
@@ -211,7 +245,7 @@ class Selector {
     const bool leaf = cell.childCount == 0;
     cut_.entries.push_back({.cell = index,
                             .representation = leaf ? Representation::triangles : Representation::mesh,
-                            .errorPixels = leaf ? 0 : meshPixels(cell)});
+                            .errorPixels = meshPixels(cell)});
     cut_.triangles += cell.meshTriangles;
   }
 
@@ -221,16 +255,22 @@ class Selector {
   const View view_;
   const SelectionSettings settings_;
   const double imageTexel_;
+  const double picturePixels_;
   std::vector<Node> nodes_;
   Cut cut_;
 };
 
 }  // namespace
 
+double impostorLoss(double texelPixels) {
+  return std::min(0.1 + 0.4 * texelPixels, 4.0) + kTrianglePrice * kTrianglesPerPixel;
+}
+double meshLoss(double errorPixels) { return 0.4 + 0.25 * errorPixels; }
+
 Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
               const SelectionSettings& settings) {
   const View view = makeView(directory.model.grid, camera, width, height);
-  return Selector(directory, viewpoints, camera, view, settings).run();
+  return Selector(directory, viewpoints, camera, view, width, height, settings).run();
 }
 
 }  // namespace farcell

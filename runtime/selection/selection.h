@@ -1,13 +1,14 @@
 // Which cells a frame draws, and how each: a pure function of directory, camera and budgets.
 //
-// Errors are lengths on screen, pixels, at the nearest point of a cell's content: of an impostor the edge of a texel,
-// of a mesh its geometric error, of full triangles none. Each kind has an error it may have. From the root down, a cell
-// outside the frustum is dropped; a cell whose views keep to what they may, and from whose bounding sphere the eye is
-// outside, is an impostor, as in the 2010 paper (Saraiva, Oliveira, Madeiras Pereira, WSCG 2010, section 3.2). What is
-// too near for that is drawn with the fewest triangles whose errors are allowed: a cell's simplified mesh where it has
-// fewer than what its children need, else leaves in full.
-// Where those are more than the budget, all errors that meshes and views of leaves may have grow by one factor, the
-// least with which the budget is kept: the largest errors on screen get triangles first, as the paper's rule has it.
+// The 2010 paper's rule (Saraiva, Oliveira, Madeiras Pereira, WSCG 2010, section 3.2) with a level rule: from the root
+// down, a cell outside the frustum is dropped; a cell whose texel is at most texelPixels of a pixel at the cell's
+// nearest point, and from whose bounding sphere the eye is outside, is an impostor.
+//
+// What is too near for that is the cut of the least loss: of leaves in full, leaves as impostors, and inner cells as
+// simplified meshes whose geometric error is at most meshPixels at the cell's nearest point. A way of drawing a cell
+// loses the image error to expect of it times the pixels the cell covers, and kTrianglePrice for each triangle: error
+// and time in one sum, so that each triangle goes where it removes the most error. Where those are more triangles than
+// the budget, their price is raised until they fit: no other cut of so few triangles loses less.
 #pragma once
 
 #include <array>
@@ -21,7 +22,15 @@
 namespace farcell {
 
 inline constexpr double kTexelPixels = 0.5;
-inline constexpr double kMeshPixels = 0.5;
+inline constexpr double kMeshPixels = 1;
+
+// Image errors to expect, in those of full geometry at one sample a pixel (tests/bench/cut/results.md): of an impostor
+// of kind A, with what its pixels cost, and of a mesh, at 4 samples, full or with a geometric error. By lengths on
+// screen, pixels.
+inline constexpr double kTrianglePrice = 0.01;     // image error x pixels that a triangle must save
+inline constexpr double kTrianglesPerPixel = 0.4;  // a pixel of an impostor takes as long as so many triangles
+double impostorLoss(double texelPixels);
+double meshLoss(double errorPixels);
 
 enum class RenderMode {
   automatic,  // impostors, meshes and triangles

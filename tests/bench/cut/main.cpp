@@ -34,11 +34,11 @@ Way way(const std::string& name, RenderMode mode, int samples, double meshPixels
 
 std::vector<Way> allWays() {
   std::vector<Way> ways = {way("full-1spp", RenderMode::full, 1, 0), way("full-4spp", RenderMode::full, 4, 0)};
-  for (const double pixels : {0.5, 0.7, 1.0, 1.4, 2.0, 4.0})
+  for (const double pixels : {0.5, 1.0, 2.0})
     ways.push_back(way(fmt::format("A-{}px", pixels), RenderMode::impostors, 4, 0, pixels));
-  for (const double pixels : {0.25, 0.5, 1.0, 2.0, 4.0})
+  for (const double pixels : {0.5, 1.0, 2.0})
     ways.push_back(way(fmt::format("lod-{}px", pixels), RenderMode::meshes, 4, pixels));
-  for (const double pixels : {0.0, 0.25, 0.5, 1.0})
+  for (const double pixels : {0.0, 0.5, 1.0, 2.0})
     ways.push_back(way(fmt::format("auto-mesh-{}px", pixels), RenderMode::automatic, 4, pixels));
   return ways;
 }

@@ -20,7 +20,8 @@ constexpr int kWidth = 320, kHeight = 240;
 // inner cells without a mesh.
 class RandomTree {
  public:
-  RandomTree(unsigned seed, const Grid& grid) : random_(seed) {
+  RandomTree(unsigned seed, const Grid& grid, uint64_t mostTriangles = 1000)
+      : random_(seed), mostTriangles_(mostTriangles) {
     directory.model.grid = grid;
     directory.model.settings.imageSize = 64;
     directory.cells.push_back(cell({}, kNone));
@@ -58,7 +59,7 @@ class RandomTree {
         record.content.min[axis] = std::min(a, b);
         record.content.max[axis] = std::max(a, b);
       }
-      record.triangles = std::uniform_int_distribution<uint64_t>(1, 1000)(random_);
+      record.triangles = std::uniform_int_distribution<uint64_t>(1, mostTriangles_)(random_);
       record.meshTriangles = record.triangles;
       record.firstGeometryPage = 0;
       record.geometryPageCount = 1;
@@ -77,6 +78,7 @@ class RandomTree {
   double part() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
   std::mt19937 random_;
+  uint64_t mostTriangles_;
 };
 
 const Viewpoints& viewpoints() {
@@ -219,8 +221,10 @@ TEST(Selection, impostorsKeepTheLevelRuleAndTheNearestView) {
           glm::min(glm::max(eye, grid.worldFromGrid(cell.content.min)), grid.worldFromGrid(cell.content.max));
       const double texel = texelSize(64) * cellHalfSide(grid, cell.key);
       const double pixel = glm::length(eye - nearest) * 2 * std::tan(camera.fovYRad / 2) / kHeight;
-      EXPECT_LE(texel, kTexelPixels * pixel * (1 + 1e-9));
-      EXPECT_GT(glm::length(eye - cellCentre(grid, cell.key)), std::sqrt(3.0) * cellHalfSide(grid, cell.key));
+      if (cell.childCount > 0) {
+        EXPECT_LE(texel, kTexelPixels * pixel * (1 + 1e-9));
+        EXPECT_GT(glm::length(eye - cellCentre(grid, cell.key)), std::sqrt(3.0) * cellHalfSide(grid, cell.key));
+      }
       const glm::dvec3 middle = glm::dvec3(cell.content.min + cell.content.max) * (0.5 * grid.step());
       EXPECT_EQ(static_cast<int>(entry.view), viewpoints().nearest(eye - middle));
     }
@@ -228,41 +232,7 @@ TEST(Selection, impostorsKeepTheLevelRuleAndTheNearestView) {
   EXPECT_GT(inner, 0u);
 }
 
-TEST(Selection, theTriangleBudgetIsKeptAndSpentOnTheLargestTexelsFirst) {
-  const Grid grid{{0, 0, 0}, 1, 24};
-  for (unsigned seed = 1; seed <= 6; ++seed) {
-    const RandomTree tree(seed, grid);
-    const auto& cells = tree.directory.cells;
-    for (const glm::dvec3 eye : eyes())
-      for (const uint64_t budget : {0u, 500u, 5000u, 50000u}) {
-        SCOPED_TRACE(fmt::format("tree {} eye {} {} {} budget {}", seed, eye.x, eye.y, eye.z, budget));
-        const Cut cut = selectCut(tree.directory, viewpoints(), cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth,
-                                  kHeight, mode(RenderMode::automatic, budget, 0));
-        uint64_t sum = 0, withoutViews = 0;
-        double smallestTriangles = INFINITY, largestImpostor = 0;
-        for (const CutEntry& entry : cut.entries) {
-          const CellRecord& cell = cells[entry.cell];
-          const glm::dvec3 nearest =
-              glm::min(glm::max(eye, grid.worldFromGrid(cell.content.min)), grid.worldFromGrid(cell.content.max));
-          const double distance = glm::length(eye - nearest);
-          const double texelPixels =
-              texelSize(64) * cellHalfSide(grid, cell.key) / (distance * 2 * std::tan(0.45) / kHeight);
-          if (entry.representation == Representation::triangles) {
-            sum += cell.triangles;
-            if (cell.firstViewPage == kNone) withoutViews += cell.triangles;
-            if (cell.firstViewPage != kNone) smallestTriangles = std::min(smallestTriangles, texelPixels);
-          } else if (texelPixels > kTexelPixels) {
-            largestImpostor = std::max(largestImpostor, texelPixels);
-          }
-        }
-        EXPECT_EQ(sum, cut.triangles);
-        EXPECT_LE(cut.triangles, std::max(budget, withoutViews));
-        EXPECT_GE(smallestTriangles * (1 + 1e-9), largestImpostor);
-      }
-  }
-}
-
-// What a cut costs and what is wrong with it, in the world's own lengths and by plain recursion.
+// What the ways to draw a cell lose, in the world's own lengths, and the best of all cuts by plain recursion.
 class Oracle {
  public:
   Oracle(const Directory& directory, const Camera& camera, const SelectionSettings& settings)
@@ -273,40 +243,95 @@ class Oracle {
       for (uint32_t cell = entry.cell; cell != kNone; cell = directory.cells[cell].parent) visible_[cell] = true;
   }
 
-  double viewError(uint32_t cell) const {
-    const CellRecord& record = directory_.cells[cell];
-    return pixels(record, texelSize(64) * cellHalfSide(directory_.model.grid, record.key)) / settings_.texelPixels;
+  double texelPixels(uint32_t cell) const {
+    return pixels(cell, texelSize(64) * cellHalfSide(directory_.model.grid, directory_.cells[cell].key));
   }
-  double meshError(uint32_t cell) const {
-    const CellRecord& record = directory_.cells[cell];
-    return record.geometricError == 0 ? 0 : pixels(record, record.geometricError) / settings_.meshPixels;
+  double meshPixels(uint32_t cell) const {
+    const double error = directory_.cells[cell].geometricError;
+    return error == 0 ? 0 : pixels(cell, error);
   }
-  bool hasMesh(uint32_t cell) const { return directory_.cells[cell].firstGeometryPage != kNone; }
 
-  // The fewest triangles of all cuts whose errors, in multiples of the settings, are at most `allowed`. Inner cells are
-  // impostors where they keep to the settings themselves and not otherwise.
-  uint64_t fewest(uint32_t cell, double allowed) const {
+  // Of the representation, without the price of its triangles.
+  double loss(uint32_t cell, Representation representation) const {
+    return areaPixels(cell) *
+           (representation == Representation::impostor ? impostorLoss(texelPixels(cell)) : meshLoss(meshPixels(cell)));
+  }
+  double loss(const Cut& cut) const {
+    double sum = 0;
+    for (const CutEntry& entry : cut.entries) sum += loss(entry.cell, entry.representation);
+    return sum;
+  }
+
+  // The fewest triangles of all cuts of meshes alone.
+  uint64_t fewest(uint32_t cell) const {
     const CellRecord& record = directory_.cells[cell];
     if (!visible_[cell]) return 0;
-    if (settings_.mode == RenderMode::automatic && record.firstViewPage != kNone) {
-      const Grid& grid = directory_.model.grid;
-      const bool beside = glm::length(camera_.position - cellCentre(grid, record.key)) >
-                          std::sqrt(3.0) * cellHalfSide(grid, record.key);
-      if (beside && viewError(cell) <= 1) return 0;
-      if (record.childCount == 0 && allowed > 1 && viewError(cell) <= allowed) return 0;
-    }
     if (record.childCount == 0) return record.triangles;
     uint64_t below = 0;
-    for (uint32_t child = 0; child < record.childCount; ++child) below += fewest(record.firstChild + child, allowed);
-    return hasMesh(cell) && meshError(cell) <= allowed ? std::min(below, record.meshTriangles) : below;
+    for (uint32_t child = 0; child < record.childCount; ++child) below += fewest(record.firstChild + child);
+    return meshAllowed(cell) ? std::min(below, record.meshTriangles) : below;
+  }
+
+  // By number of triangles 0..most: the least loss of all cuts of so many; infinite where there is none.
+  std::vector<double> leastLoss(uint32_t cell, size_t most) const {
+    const CellRecord& record = directory_.cells[cell];
+    std::vector<double> least(most + 1, INFINITY);
+    const auto offer = [&](uint64_t triangles, double loss) {
+      if (triangles <= most) least[triangles] = std::min(least[triangles], loss);
+    };
+    if (!visible_[cell]) {
+      offer(0, 0);
+      return least;
+    }
+    const bool views = record.firstViewPage != kNone;
+    if (views && (isFar(cell) || record.childCount == 0)) offer(0, loss(cell, Representation::impostor));
+    if (views && isFar(cell)) return least;
+    if (record.childCount == 0 || meshAllowed(cell)) offer(record.meshTriangles, loss(cell, Representation::mesh));
+    if (record.childCount == 0) return least;
+    std::vector<double> below(most + 1, INFINITY);
+    below[0] = 0;
+    for (uint32_t child = 0; child < record.childCount; ++child) {
+      const std::vector<double> one = leastLoss(record.firstChild + child, most);
+      std::vector<double> sum(most + 1, INFINITY);
+      for (size_t a = 0; a <= most; ++a)
+        for (size_t b = 0; a + b <= most && below[a] < INFINITY; ++b)
+          sum[a + b] = std::min(sum[a + b], below[a] + one[b]);
+      below = std::move(sum);
+    }
+    for (size_t i = 0; i <= most; ++i) offer(i, below[i]);
+    return least;
   }
 
  private:
-  double pixels(const CellRecord& record, double length) const {
+  bool meshAllowed(uint32_t cell) const {
+    return directory_.cells[cell].firstGeometryPage != kNone && meshPixels(cell) <= settings_.meshPixels;
+  }
+  bool isFar(uint32_t cell) const {
     const Grid& grid = directory_.model.grid;
-    const glm::dvec3 nearest = glm::min(glm::max(camera_.position, grid.worldFromGrid(record.content.min)),
-                                        grid.worldFromGrid(record.content.max));
+    const CellKey& key = directory_.cells[cell].key;
+    return texelPixels(cell) <= settings_.texelPixels &&
+           glm::length(camera_.position - cellCentre(grid, key)) > std::sqrt(3.0) * cellHalfSide(grid, key);
+  }
+  double pixels(uint32_t cell, double length) const {
+    const Grid& grid = directory_.model.grid;
+    const GridBox& box = directory_.cells[cell].content;
+    const glm::dvec3 nearest =
+        glm::min(glm::max(camera_.position, grid.worldFromGrid(box.min)), grid.worldFromGrid(box.max));
     return length * kHeight / (glm::length(camera_.position - nearest) * 2 * std::tan(camera_.fovYRad / 2));
+  }
+  // A mean silhouette of the content, or of what is drawn below.
+  double areaPixels(uint32_t cell) const {
+    const CellRecord& record = directory_.cells[cell];
+    if (record.childCount > 0 && !(record.firstViewPage != kNone && isFar(cell))) {
+      double sum = 0;
+      for (uint32_t child = 0; child < record.childCount; ++child)
+        if (visible_[record.firstChild + child]) sum += areaPixels(record.firstChild + child);
+      return sum;
+    }
+    const glm::dvec3 size = glm::dvec3(record.content.max - record.content.min) * directory_.model.grid.step();
+    const double x = pixels(cell, size.x), y = pixels(cell, size.y), z = pixels(cell, size.z);
+    const double area = (x * y + y * z + z * x) / 2;
+    return area < kWidth * kHeight ? area : kWidth * kHeight;
   }
 
   const Directory& directory_;
@@ -314,16 +339,6 @@ class Oracle {
   const SelectionSettings& settings_;
   std::vector<bool> visible_;
 };
-
-// The largest error of a cut's meshes and leaves' views, in multiples of what the settings allow.
-double largestError(const Oracle& oracle, const Cut& cut) {
-  double largest = 0;
-  for (const CutEntry& entry : cut.entries) {
-    if (entry.representation == Representation::impostor) largest = std::max(largest, oracle.viewError(entry.cell));
-    if (entry.representation == Representation::mesh) largest = std::max(largest, oracle.meshError(entry.cell));
-  }
-  return largest;
-}
 
 TEST(Selection, meshesAloneKeepToTheirErrorWithTheFewestTriangles) {
   const Grid grid{{5, -7, 100}, 64, 24};
@@ -340,53 +355,73 @@ TEST(Selection, meshesAloneKeepToTheirErrorWithTheFewestTriangles) {
         for (const CutEntry& entry : cut.entries) {
           const bool mesh = entry.representation == Representation::mesh;
           ++(mesh ? meshes : leaves);
-          const double error = mesh ? oracle.meshError(entry.cell) * meshPixels : 0;
+          const double error = mesh ? oracle.meshPixels(entry.cell) : 0;
           EXPECT_LE(error, meshPixels * (1 + 1e-9));
           EXPECT_NEAR(entry.errorPixels, error, 1e-9 * (1 + error));
         }
-        EXPECT_EQ(cut.triangles, oracle.fewest(0, 1));
+        EXPECT_EQ(cut.triangles, oracle.fewest(0));
       }
   }
   EXPECT_GT(meshes, 100u);
   EXPECT_GT(leaves, 100u);
 }
 
-TEST(Selection, withinTheBudgetTheLargestErrorIsTheLeastThatCanBe) {
+// Corners of the lower convex hull of loss over triangles, up to `budget`: what a price of triangles can choose.
+size_t lastCorner(const std::vector<double>& least, size_t budget) {
+  std::vector<size_t> hull;
+  for (size_t i = 0; i < least.size(); ++i) {
+    if (least[i] == INFINITY) continue;
+    const auto slope = [&](size_t from, size_t to) { return (least[to] - least[from]) / double(to - from); };
+    while (hull.size() > 1 && slope(hull.back(), i) <= slope(hull[hull.size() - 2], hull.back())) hull.pop_back();
+    hull.push_back(i);
+  }
+  size_t last = hull.front();
+  for (size_t i = 1; i < hull.size() && hull[i] <= budget; ++i) {
+    // Beyond the price that a triangle always has, no more of them.
+    if ((least[hull[i - 1]] - least[hull[i]]) / double(hull[i] - hull[i - 1]) < kTrianglePrice) break;
+    last = hull[i];
+  }
+  return last;
+}
+
+TEST(Selection, noCutOfAsFewTrianglesLosesLess) {
   const Grid grid{{0, 0, 0}, 1, 24};
-  size_t free = 0, bound = 0, meshes = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
-    const RandomTree tree(seed, grid);
-    for (const glm::dvec3 eye : eyes())
-      for (const uint64_t budget : {0u, 500u, 5000u, 20000u, 1000000u}) {
+  size_t bound = 0, meshes = 0, leaves = 0, impostors = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const RandomTree tree(seed, grid, 5);
+    for (const glm::dvec3 eye : {glm::dvec3(-2, 0.3, 0.4), glm::dvec3(0.5, 0.5, 4), glm::dvec3(1.2, 0.6, 0.3),
+                                 glm::dvec3(0.3, 0.6, 0.1), glm::dvec3(3, -3, 0.25)}) {
+      const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
+      const SelectionSettings plenty = mode(RenderMode::automatic);
+      const Oracle oracle(tree.directory, camera, plenty);
+      const std::vector<double> least = oracle.leastLoss(0, tree.directory.cells[0].triangles);
+      for (const uint64_t budget : {0u, 5u, 20u, 60u, 1000000u}) {
         SCOPED_TRACE(fmt::format("tree {} eye {} {} {} budget {}", seed, eye.x, eye.y, eye.z, budget));
-        const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
-        const SelectionSettings settings = mode(RenderMode::automatic, budget);
-        const Cut cut = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings);
-        const Oracle oracle(tree.directory, camera, settings);
+        const Cut cut =
+            selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::automatic, budget));
         uint64_t sum = 0;
         for (const CutEntry& entry : cut.entries) {
           meshes += entry.representation == Representation::mesh;
-          if (entry.representation != Representation::impostor) sum += tree.directory.cells[entry.cell].meshTriangles;
+          leaves += entry.representation == Representation::triangles;
+          impostors += entry.representation == Representation::impostor;
+          if (entry.representation == Representation::impostor) continue;
+          sum += tree.directory.cells[entry.cell].meshTriangles;
+          EXPECT_LE(oracle.meshPixels(entry.cell), kMeshPixels * (1 + 1e-9));
         }
         EXPECT_EQ(cut.triangles, sum);
-        EXPECT_LE(cut.triangles, std::max(budget, oracle.fewest(0, INFINITY)));
-        if (oracle.fewest(0, 1) <= budget) {
-          ++free;
-          EXPECT_EQ(cut.triangles, oracle.fewest(0, 1));
-          EXPECT_LE(largestError(oracle, cut), 1 + 1e-9);
-        } else {
-          ++bound;
-          const double largest = largestError(oracle, cut);
-          EXPECT_EQ(cut.triangles, oracle.fewest(0, std::max(1.0, largest) * (1 + 1e-9)));
-          // With less error than this the budget is not enough. (Inside content boxes errors are infinite.)
-          const double less = std::isinf(largest) ? 1e100 : std::max(1.0, largest * (1 - 1e-9));
-          EXPECT_GT(oracle.fewest(0, less), budget);
-        }
+        ASSERT_LT(sum, least.size());
+        EXPECT_NEAR(oracle.loss(cut), least[sum], 1e-9 * least[sum]);
+        const size_t corner = lastCorner(least, budget);
+        bound += corner == lastCorner(least, least.size()) ? 0 : 1;
+        EXPECT_LE(oracle.loss(cut), least[corner] * (1 + 1e-9));
+        EXPECT_LE(sum, std::max<uint64_t>(budget, corner));
       }
+    }
   }
-  EXPECT_GT(free, 20u);
   EXPECT_GT(bound, 20u);
   EXPECT_GT(meshes, 100u);
+  EXPECT_GT(leaves, 100u);
+  EXPECT_GT(impostors, 100u);
 }
 
 TEST(Selection, aCutDoesNotDependOnScaleOrOffset) {
