@@ -14,6 +14,7 @@ using Colour = std::array<uint8_t, 3>;
 constexpr Colour kTriangles = {230, 159, 0};
 constexpr Colour kFlat = {204, 121, 167};
 constexpr Colour kDepthCorrected = {0, 158, 115};
+constexpr Colour kBlended = {86, 180, 233};
 
 // By level; neighbours differ in hue and brightness.
 constexpr std::array<Colour, kMaxLevel + 1> kLevels = {{{120, 120, 120},
@@ -51,7 +52,8 @@ Colour heatColour(double share) {
 
 const char* nameOf(Representation representation, ImpostorKind kind) {
   if (representation == Representation::triangles) return "triangles";
-  return kind == ImpostorKind::flat ? "flat impostor" : "impostor of kind A";
+  if (kind == ImpostorKind::flat) return "flat impostor";
+  return kind == ImpostorKind::blended ? "impostor of kind B" : "impostor of kind A";
 }
 
 void planKinds(ShowPlan& plan, const Cut& cut, ImpostorKind kind) {
@@ -156,7 +158,7 @@ ShowPlan planShow(Show show, const Directory& directory, const Cut& cut, const F
       plan.tints.clear();
       break;
     case Show::billboards:
-      plan.legend.push_back({kind == ImpostorKind::flat ? "flat impostor" : "nearest view of an impostor of kind A",
+      plan.legend.push_back({kind == ImpostorKind::flat ? "flat impostor" : "first view of an impostor",
                              lineColour(Representation::impostor, kind)});
       break;
     case Show::levels:
@@ -180,7 +182,8 @@ ShowPlan planShow(Show show, const Directory& directory, const Cut& cut, const F
 
 std::array<uint8_t, 3> lineColour(Representation representation, ImpostorKind kind) {
   if (representation == Representation::triangles) return kTriangles;
-  return kind == ImpostorKind::flat ? kFlat : kDepthCorrected;
+  if (kind == ImpostorKind::flat) return kFlat;
+  return kind == ImpostorKind::blended ? kBlended : kDepthCorrected;
 }
 
 }  // namespace farcell
