@@ -106,11 +106,13 @@ int largestDot(std::span<const glm::dvec3> directions, glm::dvec3 direction, int
 
 Result<Viewpoints> Viewpoints::create(int count) {
   Icosphere sphere = icosahedron();
+  std::vector<std::vector<std::array<int, 3>>> levels;
   for (int level = 0; level < 4; ++level) {
     Viewpoints set;
+    levels.push_back(sphere.faces);
     if (static_cast<int>(sphere.vertices.size()) == count) {
       set.directions_ = sphere.vertices;
-      set.triangles_ = sphere.faces;
+      set.levels_ = levels;
     } else if (static_cast<int>(sphere.faces.size()) == count) {
       set.directions_ = faceCentres(sphere);
     }
@@ -161,21 +163,28 @@ std::array<int, 2> Viewpoints::nearestTwo(glm::dvec3 direction) const {
 Viewpoints::Triple Viewpoints::nearestThree(glm::dvec3 direction) const {
   FARCELL_CHECK(hasTriangles());
   const glm::dvec3 unit = glm::normalize(nearUnitLength(direction));
-  double bestInside = -INFINITY;
   Triple best{};
-  for (const auto& face : triangles_) {
-    const glm::dvec3 &a = directions_[face[0]], &b = directions_[face[1]], &c = directions_[face[2]];
-    if (glm::dot(unit, a) < 0 && glm::dot(unit, b) < 0 && glm::dot(unit, c) < 0) continue;
-    // Solve direction = wa a + wb b + wc c; the face hit is the one whose smallest weight is largest.
-    const double volume = glm::dot(a, glm::cross(b, c));
-    const std::array<double, 3> weights = {glm::dot(unit, glm::cross(b, c)) / volume,
-                                           glm::dot(unit, glm::cross(c, a)) / volume,
-                                           glm::dot(unit, glm::cross(a, b)) / volume};
-    const double inside = std::min({weights[0], weights[1], weights[2]});
-    if (inside > bestInside) {
-      bestInside = inside;
-      best = {face, weights};
+  size_t first = 0, end = levels_[0].size();
+  for (const auto& faces : levels_) {
+    size_t hit = first;
+    double bestInside = -INFINITY;
+    for (size_t face = first; face < end; ++face) {
+      const glm::dvec3 &a = directions_[faces[face][0]], &b = directions_[faces[face][1]],
+                       &c = directions_[faces[face][2]];
+      // Solve direction = wa a + wb b + wc c; the face hit is the one whose smallest weight is largest.
+      const double volume = glm::dot(a, glm::cross(b, c));
+      const std::array<double, 3> weights = {glm::dot(unit, glm::cross(b, c)) / volume,
+                                             glm::dot(unit, glm::cross(c, a)) / volume,
+                                             glm::dot(unit, glm::cross(a, b)) / volume};
+      const double inside = std::min({weights[0], weights[1], weights[2]});
+      if (inside > bestInside) {
+        bestInside = inside;
+        best = {faces[face], weights};
+        hit = face;
+      }
     }
+    first = 4 * hit;
+    end = first + 4;
   }
   double sum = 0;
   for (double& weight : best.weights) sum += weight = std::max(0.0, weight);

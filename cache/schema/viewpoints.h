@@ -22,7 +22,7 @@ class Viewpoints {
   // Unit vectors from the cell's centre to the viewer, world axes. Their order is part of the pack format.
   std::span<const glm::dvec3> directions() const { return directions_; }
   // Whether three neighbours can be asked for (vertex sets).
-  bool hasTriangles() const { return !triangles_.empty(); }
+  bool hasTriangles() const { return !levels_.empty(); }
   // The view opposite to `view`; every set is symmetric: directions()[antipode(v)] == -directions()[v], bit for bit.
   int antipode(int view) const { return antipodes_[static_cast<size_t>(view)]; }
   // Views that lie near each other share a group (a page of the pack holds a group); groups are numbered from 0.
@@ -47,7 +47,9 @@ class Viewpoints {
   void groupViews();
 
   std::vector<glm::dvec3> directions_;
-  std::vector<std::array<int, 3>> triangles_;
+  // The triangles of the icosahedron, then of each subdivision: 4 i to 4 i + 3 are parts of triangle i of the level
+  // before.
+  std::vector<std::vector<std::array<int, 3>>> levels_;
   std::vector<int> antipodes_;
   std::vector<int> groups_;
   int groupCount_ = 0;

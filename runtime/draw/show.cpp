@@ -15,6 +15,7 @@ constexpr Colour kTriangles = {230, 159, 0};
 constexpr Colour kMesh = {86, 180, 233};
 constexpr Colour kFlat = {204, 121, 167};
 constexpr Colour kDepthCorrected = {0, 158, 115};
+constexpr Colour kBlended = {0, 114, 178};
 
 // By level; neighbours differ in hue and brightness.
 constexpr std::array<Colour, kMaxLevel + 1> kLevels = {{{120, 120, 120},
@@ -53,7 +54,8 @@ Colour heatColour(double share) {
 const char* nameOf(Representation representation, ImpostorKind kind) {
   if (representation == Representation::triangles) return "triangles";
   if (representation == Representation::mesh) return "simplified mesh";
-  return kind == ImpostorKind::flat ? "flat impostor" : "impostor of kind A";
+  if (kind == ImpostorKind::flat) return "flat impostor";
+  return kind == ImpostorKind::blended ? "impostor of kind B" : "impostor of kind A";
 }
 
 void planKinds(ShowPlan& plan, const Cut& cut, ImpostorKind kind) {
@@ -158,7 +160,7 @@ ShowPlan planShow(Show show, const Directory& directory, const Cut& cut, const F
       plan.tints.clear();
       break;
     case Show::billboards:
-      plan.legend.push_back({kind == ImpostorKind::flat ? "flat impostor" : "nearest view of an impostor of kind A",
+      plan.legend.push_back({kind == ImpostorKind::flat ? "flat impostor" : "first view of an impostor",
                              lineColour(Representation::impostor, kind)});
       break;
     case Show::levels:
@@ -183,7 +185,8 @@ ShowPlan planShow(Show show, const Directory& directory, const Cut& cut, const F
 std::array<uint8_t, 3> lineColour(Representation representation, ImpostorKind kind) {
   if (representation == Representation::triangles) return kTriangles;
   if (representation == Representation::mesh) return kMesh;
-  return kind == ImpostorKind::flat ? kFlat : kDepthCorrected;
+  if (kind == ImpostorKind::flat) return kFlat;
+  return kind == ImpostorKind::blended ? kBlended : kDepthCorrected;
 }
 
 }  // namespace farcell

@@ -4,7 +4,7 @@
 // normals colour each point; cells and billboards are lines over the picture. For impostors:
 // - error is the edge of a texel of the cell's views on screen, pixels, at the cell's nearest point: what selection
 //   compares; of a simplified mesh its geometric error. Full triangles count as 0.
-// - depth is that of the surface kind A finds, and of the billboard's plane for the flat kind.
+// - depth is that of the surface kinds A and B find, and of the billboard's plane for the flat kind.
 // - normals are those baked into the pack, where it has them; else they are derived from the views' depth images.
 #pragma once
 
@@ -23,7 +23,7 @@ namespace farcell {
 enum class Show {
   picture,     // as it is
   cells,       // edges of the cubes of the cells drawn
-  billboards,  // outlines of flat impostors; of kind A: of the rectangles their nearest view holds
+  billboards,  // outlines of flat impostors; of kinds A and B: of the rectangles their first view holds
   levels,
   kinds,
   error,

@@ -37,7 +37,7 @@ TEST(Renderer, aSphereOfImpostorsCoversItsDisc) {
   DrawnPack drawn = openDrawn(sphereTriangles({10, 20, 30}, 2, 4, kWhite), {.level = 1});
   const Camera camera = lookAt({10 + 30, 20 - 11, 30 + 7}, {10, 20, 30}, 0.3);
   FrameImage image;
-  for (const ImpostorKind kind : {ImpostorKind::flat, ImpostorKind::depthCorrected}) {
+  for (const ImpostorKind kind : {ImpostorKind::flat, ImpostorKind::depthCorrected, ImpostorKind::blended}) {
     const FrameStats stats = drawn.draw(camera, sized(400, 300, RenderMode::impostors, 4, kind), image);
     EXPECT_EQ(stats.triangles, 0u);
     EXPECT_GE(stats.impostors, 1u);
@@ -206,7 +206,7 @@ TEST(Renderer, anEyeAnywhereAndAnyDistanceDrawsWithoutFailing) {
   for (const glm::dvec3 eye : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(1e9, 0, 0), glm::dvec3(1e200, 1e200, 0),
                                glm::dvec3(-1e308, 0, 0)})
     for (const RenderMode mode : {RenderMode::automatic, RenderMode::impostors, RenderMode::full})
-      for (const ImpostorKind kind : {ImpostorKind::flat, ImpostorKind::depthCorrected})
+      for (const ImpostorKind kind : {ImpostorKind::flat, ImpostorKind::depthCorrected, ImpostorKind::blended})
         drawn.draw(lookAt(eye, {0, 0, 0.001}), sized(64, 48, mode, 4, kind), image);
   EXPECT_EQ(image.width, 64);
 }

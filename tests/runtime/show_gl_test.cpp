@@ -17,7 +17,7 @@ constexpr int kWidth = 200;
 constexpr int kHeight = 150;
 constexpr std::array kShows = {Show::picture, Show::cells, Show::billboards, Show::levels,
                                Show::kinds,   Show::error, Show::depth,      Show::normals};
-constexpr std::array kKinds = {ImpostorKind::flat, ImpostorKind::depthCorrected};
+constexpr std::array kKinds = {ImpostorKind::flat, ImpostorKind::depthCorrected, ImpostorKind::blended};
 
 RenderSettings showing(Show show, RenderMode mode, ImpostorKind kind = ImpostorKind::depthCorrected, int samples = 1) {
   RenderSettings settings = sized(kWidth, kHeight, mode, samples, kind);

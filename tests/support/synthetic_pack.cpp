@@ -139,9 +139,10 @@ Result<> addViews(PackWriter& writer, uint32_t index, CellRecord& record, const 
                   const Viewpoints& viewpoints, const SyntheticPack& settings) {
   std::map<uint32_t, ViewPage> groups;
   for (int view = 0; view < viewpoints.count(); ++view)
-    groups[static_cast<uint32_t>(viewpoints.group(view))].views.push_back(bakeSynthetic(
-        triangles, viewpoints.directions()[static_cast<size_t>(view)],
-        {static_cast<uint32_t>(view), settings.imageSize, settings.samplesPerEdge, settings.withNormals}));
+    if (std::find(settings.leftOut.begin(), settings.leftOut.end(), view) == settings.leftOut.end())
+      groups[static_cast<uint32_t>(viewpoints.group(view))].views.push_back(bakeSynthetic(
+          triangles, viewpoints.directions()[static_cast<size_t>(view)],
+          {static_cast<uint32_t>(view), settings.imageSize, settings.samplesPerEdge, settings.withNormals}));
   for (const auto& [group, page] : groups) {
     FARCELL_ASSIGN(const uint32_t added,
                    writer.add(PageKind::views, index, group, decodedSizeBytes(page), encodeViewPage(page)));

@@ -33,7 +33,7 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
                  "what is drawn; meshes: no impostors, triangles: all leaves in view, full: all leaves")
       ->check(CLI::IsMember(kModes))
       ->capture_default_str();
-  app.add_option("--kind", options.kind, "of impostors: A is depth-corrected, B blends three views of A")
+  app.add_option("--kind", options.kind, "of impostors: A corrects one view by its depth, B blends three")
       ->check(CLI::IsMember(kKinds))
       ->capture_default_str();
   app.add_option("--show", options.show,

@@ -238,6 +238,49 @@ TEST(Viewpoints, TheNearestThreeReproduceTheDirectionUnderEverySymmetry) {
   }
 }
 
+// All triples of views that are mutual neighbours: an icosphere's edges are far shorter than its other distances.
+std::vector<std::array<int, 3>> trianglesByDistance(const Viewpoints& set) {
+  const auto directions = set.directions();
+  long double nearest = -1;
+  for (int view = 1; view < set.count(); ++view) nearest = std::max(nearest, exactDot(directions[0], directions[view]));
+  const long double longest = std::cos(1.4L * std::acos(nearest));
+  const auto neighbours = [&](int i, int j) { return exactDot(directions[i], directions[j]) > longest; };
+  std::vector<std::array<int, 3>> result;
+  for (int a = 0; a < set.count(); ++a)
+    for (int b = a + 1; b < set.count(); ++b)
+      for (int c = neighbours(a, b) ? b + 1 : set.count(); c < set.count(); ++c)
+        if (neighbours(a, c) && neighbours(b, c)) result.push_back({a, b, c});
+  return result;
+}
+
+TEST(Viewpoints, TheTriangleOfADirectionIsTheOneOfAllWhoseThreeSidesItLiesWithin) {
+  const unsigned seed = 2024;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const int count : kVertexSets) {
+    const Viewpoints set = make(count);
+    const auto triangles = trianglesByDistance(set);
+    ASSERT_EQ(triangles.size(), static_cast<size_t>(2 * count - 4)) << "Euler";
+    for (int i = 0; i < 200; ++i) {
+      const glm::dvec3 direction = randomUnit(random);
+      int holding = 0;
+      for (const auto& [a, b, c] : triangles) {
+        const auto side = [&](int from, int to, int opposite) {
+          const glm::dvec3 normal = glm::cross(set.directions()[from], set.directions()[to]);
+          return exactDot(normal, direction) * exactDot(normal, set.directions()[opposite]);
+        };
+        if (glm::dot(set.directions()[a], direction) < 0 || side(a, b, c) < 0 || side(b, c, a) < 0 || side(c, a, b) < 0)
+          continue;
+        ++holding;
+        auto views = set.nearestThree(direction).views;
+        std::sort(views.begin(), views.end());
+        EXPECT_EQ(views, (std::array<int, 3>{a, b, c})) << count;
+      }
+      EXPECT_EQ(holding, 1) << count;
+    }
+  }
+}
+
 TEST(Viewpoints, TheNearestOfTheThreeIsTheNearestView) {
   // Holds exactly for equilateral triangles, the icosahedron's; elsewhere weight and angle may disagree near bisectors.
   std::mt19937 random(5);

@@ -227,6 +227,9 @@ TEST(Selection, impostorsKeepTheLevelRuleAndTheNearestView) {
       }
       const glm::dvec3 middle = glm::dvec3(cell.content.min + cell.content.max) * (0.5 * grid.step());
       EXPECT_EQ(static_cast<int>(entry.view), viewpoints().nearest(eye - middle));
+      const Viewpoints::Triple expected = viewpoints().nearestThree(eye - middle);
+      EXPECT_EQ(entry.blend.views, expected.views);
+      for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(entry.blend.weights[i], expected.weights[i], 1e-9);
     }
   }
   EXPECT_GT(inner, 0u);
