@@ -19,6 +19,10 @@ struct RendererPlan {
 inline constexpr const char* kBaselineRenderer = "full-1spp";  // what ratios are relative to
 inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,triangles,flat,A,auto";
 
+// Whether what a mode draws depends on the setting.
+bool usesTexelPixels(RenderMode mode);
+bool usesTriangleBudget(RenderMode mode);
+
 // names: comma-separated, any order, repetitions allowed. full-1spp and full-4spp always come first: full geometry is
 // what the user would otherwise look at. invalidArgument for an unknown name, unsupported for B.
 // The level rule and the budget are `selection`'s; its mode is the renderer's own.
