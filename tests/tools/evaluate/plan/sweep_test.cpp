@@ -1,5 +1,6 @@
 #include "tools/evaluate/plan/sweep.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -96,7 +97,7 @@ TEST(Sweep, SaysWhatIsWrong) {
 
 std::string range(const std::string& setting, int count) {
   std::string text = setting + "=";
-  for (int i = 1; i <= count; ++i) text += (i > 1 ? "," : "") + std::to_string(i);
+  for (int i = 1; i <= count; ++i) text += fmt::format("{}{}", i > 1 ? "," : "", i);
   return text;
 }
 

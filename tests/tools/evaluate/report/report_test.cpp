@@ -1,5 +1,6 @@
 #include "tools/evaluate/report/report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -198,7 +199,7 @@ TEST(SummaryCsv, HasALineForEachRendererWithTheSummarysFiguresUnderTheSameNames)
     ASSERT_EQ(fields.size(), names.size());
     EXPECT_EQ(fields[0], renderer);
     for (size_t column = 1; column < names.size(); ++column) {
-      std::string pointer = "/" + names[column];
+      std::string pointer = fmt::format("/{}", names[column]);
       std::replace(pointer.begin(), pointer.end(), '.', '/');
       const Json& value = summary.at(renderer).at(Json::json_pointer(pointer));
       EXPECT_EQ(fields[column], value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump());
