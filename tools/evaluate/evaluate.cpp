@@ -9,6 +9,7 @@
 #include "cache/base/progress.h"
 #include "tools/evaluate/measure_renderer.h"
 #include "tools/evaluate/plan/auto_cameras.h"
+#include "tools/evaluate/plan/sweep.h"
 #include "tools/evaluate/reference/reference.h"
 #include "tools/evaluate/report/names.h"
 #include "tools/evaluate/report/page.h"
@@ -103,6 +104,7 @@ Result<> writeReport(const Run& run) {
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   FARCELL_TRY(writeTextFile(run.options.output / "report.json", text));
   FARCELL_TRY(writeTextFile(run.options.output / "report.csv", reportCsv(run.entries)));
+  FARCELL_TRY(writeTextFile(run.options.output / "summary.csv", summaryCsv(run.entries)));
   FARCELL_TRY(writeTextFile(run.options.output / "index.html", reportPage(json)));
   std::fputs(run.options.json ? text.c_str() : reportTable(run.entries).c_str(), stdout);
   return {};
@@ -142,6 +144,7 @@ Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_TRY(checkReferenceSamples(options.referenceSamples));
   FARCELL_ASSIGN(std::vector<RendererPlan> plans,
                  planRenderers(options.renderers, options.width, options.height, options.selection, options.lodPixels));
+  FARCELL_ASSIGN(plans, sweepRenderers(std::move(plans), options.sweeps));
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   FARCELL_ASSIGN(std::vector<Camera> cameras, loadCameras(options, pack.directory().model));
   FARCELL_TRY(makeDirectory(options.output));

@@ -2,7 +2,7 @@
 // 1. open pack, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
 // 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
 //    (metrics/) and time it;
-// 3. write report.json, report.csv, index.html, cameras.json and pictures (report/).
+// 3. write report.json, report.csv, summary.csv, index.html, cameras.json and pictures (report/).
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ struct EvaluateOptions {
   std::vector<std::filesystem::path> meshes;  // empty: the pack's own leaves are the truth
   std::filesystem::path output;               // directory, made when absent
   std::string renderers;
+  std::vector<std::string> sweeps;  // see sweepRenderers()
   int width = 1280;
   int height = 720;
   int referenceSamples = 64;

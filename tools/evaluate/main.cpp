@@ -4,6 +4,7 @@
 #include "tools/cli/cli.h"
 #include "tools/evaluate/evaluate.h"
 #include "tools/evaluate/plan/renderers.h"
+#include "tools/evaluate/plan/sweep.h"
 
 namespace farcell {
 namespace {
@@ -47,6 +48,11 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--renderers", options.renderers, "comma-separated; full-1spp and full-4spp are always included")
       ->type_name("NAMES")
       ->default_val(kAllRenderers);
+  app.add_option("--sweep", options.sweeps,
+                 "texel-pixels=0.35,0.5 or triangle-budget=100k,2M: each renderer that has the setting, once for each "
+                 "value; given for both: for each pair; at most 64 renderers in all")
+      ->type_name("NAME=VALUES")
+      ->allow_extra_args(false);
   app.add_option("--reference-samples", options.referenceSamples, "samples per pixel of the reference")
       ->check(CLI::IsMember({"1", "4", "9", "16", "25", "36", "49", "64"}))
       ->capture_default_str();
@@ -55,7 +61,7 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
       ->capture_default_str();
   app.add_option("--texel-pixels", options.selection.texelPixels,
                  "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(CLI::Range(kLeastTexelPixels, kMostTexelPixels))
       ->capture_default_str();
   app.add_option(
          "--mesh-pixels", options.selection.meshPixels,
@@ -92,12 +98,15 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Measures a pack's pictures against its full geometry.\n"
       "For each camera a reference is ray traced; each renderer's picture is compared with it and timed. The report is "
-      "report.json, report.csv and pictures of the differences.",
+      "report.json, report.csv (a line a picture), summary.csv (a line a renderer: error, time, whether on their "
+      "Pareto "
+      "front), and a page with plots and pictures of the differences.",
       "farcell-evaluate");
   app.footer(
       "Examples:\n"
       "  farcell evaluate city.far --cameras cams.json -o report/\n"
-      "  farcell evaluate city.far --auto-cameras 8 --renderers flat,A,auto --size 640x360 -o report/\n");
+      "  farcell evaluate city.far --auto-cameras 8 --renderers flat,A,auto --size 640x360 -o report/\n"
+      "  farcell evaluate city.far --cameras cams.json --sweep texel-pixels=0.35,0.5,1 -o report/\n");
   farcell::addOptions(app, options, words);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options, words); });
 }

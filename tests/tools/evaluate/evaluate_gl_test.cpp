@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -112,11 +113,35 @@ TEST_F(EvaluateProgram, MakesItsOwnCamerasAndWritesThem) {
   EXPECT_EQ(run("sphere.far --cameras report/cameras.json --renderers full-1spp --size 40x30 --frames 1 -o again"), 0);
 }
 
+TEST_F(EvaluateProgram, ASweepRunsEveryVariantAgainstTheSameReferences) {
+  ASSERT_EQ(run("sphere.far --cameras cameras.json --renderers A,auto --sweep texel-pixels=0.5,8 --sweep "
+                "triangle-budget=0,10k --size 60x40 --frames 1 --reference-samples 4 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json json = report();
+  EXPECT_EQ(json.at("entries").size(), 2u * (2 + 2 + 4));
+  EXPECT_EQ(json.at("summary").size(), 8u);
+  const std::string variant = "auto@texel-pixels=8@triangle-budget=10k";
+  EXPECT_TRUE(json.at("summary").contains(variant));
+  EXPECT_EQ(json.at("entries")[7].at("renderer"), variant);
+  EXPECT_EQ(json.at("entries")[7].at("settings").at("texelPixels"), 8);
+  EXPECT_EQ(json.at("entries")[7].at("settings").at("triangleBudget"), 10'000);
+  EXPECT_EQ(json.at("summary").at("auto@texel-pixels=0.5@triangle-budget=0").at("medianTriangles"), 0);
+  const std::string lines = textOf(path("report/summary.csv"));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 8);
+  int pictures = 0;
+  for (const auto& file : std::filesystem::directory_iterator(path("report")))
+    pictures += file.path().extension() == ".png" ? 1 : 0;
+  EXPECT_EQ(pictures, 2 * (1 + 3 * 8));
+}
+
 TEST_F(EvaluateProgram, SaysWhatIsWrongWithTheRightExitCode) {
   EXPECT_EQ(run("sphere.far --cameras cameras.json --renderers B -o report"), 1);
   EXPECT_NE(textOf(path("stderr")).find("not in this version"), std::string::npos);
   EXPECT_EQ(run("sphere.far --cameras cameras.json --renderers C -o report"), 2);
   EXPECT_EQ(run("sphere.far --cameras cameras.json --reference-samples 7 -o report"), 2);
+  EXPECT_EQ(run("sphere.far --cameras cameras.json --sweep texel-pixels=0 -o report"), 2);
+  EXPECT_NE(textOf(path("stderr")).find("expected a number from 0.01 to 100, found '0'"), std::string::npos);
   EXPECT_EQ(run("sphere.far --cameras cameras.json --background 1,2,256 -o report"), 2);
   EXPECT_EQ(run("sphere.far --cameras cameras.json --background 1,2 -o report"), 2);
   EXPECT_EQ(run("sphere.far --cameras cameras.json --auto-cameras 3 -o report"), 2);

@@ -42,6 +42,9 @@ Result<std::set<std::string>> parseNames(const std::string& names) {
 
 }  // namespace
 
+bool usesTexelPixels(RenderMode mode) { return mode == RenderMode::automatic || mode == RenderMode::impostors; }
+bool usesTriangleBudget(RenderMode mode) { return mode == RenderMode::automatic; }
+
 Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,
                                                 const SelectionSettings& selection, double lodPixels) {
   FARCELL_ASSIGN(const std::set<std::string> asked, parseNames(names));

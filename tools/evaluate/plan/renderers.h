@@ -20,6 +20,10 @@ inline constexpr const char* kBaselineRenderer = "full-1spp";  // what ratios ar
 inline constexpr double kLodPixels = 1;                        // as viewers of mesh hierarchies have it
 inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,triangles,lod,flat,A,B,auto,auto-B";
 
+// Whether what a mode draws depends on the setting.
+bool usesTexelPixels(RenderMode mode);
+bool usesTriangleBudget(RenderMode mode);
+
 // names: comma-separated, any order, repetitions allowed. full-1spp and full-4spp always come first: full geometry is
 // what the user would otherwise look at. invalidArgument for an unknown name.
 // The level rule and the budget are `selection`'s; its mode is the renderer's own, and lod's meshes have an error of at

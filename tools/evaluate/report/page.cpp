@@ -19,7 +19,8 @@ std::string_view pageFile(const std::string& name) {
 std::string script() {
   std::string text;
   for (const char* name :
-       {"format.js", "model.js", "scale.js", "plot.js", "plot_controls.js", "table.js", "pictures.js", "main.js"})
+       {"format.js", "model.js", "scale.js", "labels.js", "plot.js", "plot_controls.js", "front.js", "table.js",
+        "pictures.js", "main.js"})
     text += pageFile(name);
   return text;
 }

@@ -45,16 +45,14 @@ const char* kindName(ImpostorKind kind) {
 }
 
 Json settingsJson(const RenderSettings& settings) {
-  const bool impostors =
-      settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::impostors;
   Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
-  if (impostors) {
+  if (usesTexelPixels(settings.selection.mode)) {
     json["kind"] = kindName(settings.kind);
     json["texelPixels"] = settings.selection.texelPixels;
   }
   if (settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::meshes)
     json["meshPixels"] = settings.selection.meshPixels;
-  if (settings.selection.mode == RenderMode::automatic) json["triangleBudget"] = settings.selection.triangleBudget;
+  if (usesTriangleBudget(settings.selection.mode)) json["triangleBudget"] = settings.selection.triangleBudget;
   return json;
 }
 
@@ -100,20 +98,18 @@ Json ratiosJson(const RatioSummary& ratios) {
           {"worstRatio", optionalJson(ratios.worstRatio)}};
 }
 
-Json summaryJson(const std::vector<Entry>& entries) {
-  Json json = Json::object();
-  for (const RendererSummary& summary : summarise(entries)) {
-    json[summary.renderer] = {{"class", summary.rendererClass},
-                              {"ratioToFull1spp", optionalJson(summary.all.ratioToFull1spp)},
-                              {"worstRatio", optionalJson(summary.all.worstRatio)},
-                              {"cameras", summary.all.cameras},
-                              {"mostlyImpostors", ratiosJson(summary.mostlyImpostors)},
-                              {"elsewhere", ratiosJson(summary.elsewhere)},
-                              {"medianFrameMs", summary.medianFrameMs},
-                              {"worstHoleRate", summary.worstHoleRate},
-                              {"meanFlip", summary.meanFlip}};
-  }
-  return json;
+Json summaryJson(const RendererSummary& summary) {
+  return {{"class", summary.rendererClass},
+          {"ratioToFull1spp", optionalJson(summary.all.ratioToFull1spp)},
+          {"worstRatio", optionalJson(summary.all.worstRatio)},
+          {"cameras", summary.all.cameras},
+          {"mostlyImpostors", ratiosJson(summary.mostlyImpostors)},
+          {"elsewhere", ratiosJson(summary.elsewhere)},
+          {"medianFrameMs", summary.medianFrameMs},
+          {"medianTriangles", summary.medianTriangles},
+          {"worstHoleRate", summary.worstHoleRate},
+          {"meanFlip", summary.meanFlip},
+          {"onParetoFront", summary.onParetoFront}};
 }
 
 std::string processorName() {
@@ -184,10 +180,16 @@ Json flatSettings(Json entry) {
   return entry;
 }
 
-std::string csvLine(const Entry& entry, bool names) {
+std::string csvLine(const Json& json, bool names) {
   std::vector<std::string> fields;
-  appendFields(flatSettings(entryJson(entry)), "", names, fields);
+  appendFields(json, "", names, fields);
   return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+Json summaryLineJson(const RendererSummary& summary) {
+  Json json = {{"renderer", summary.renderer}};
+  json.update(summaryJson(summary));
+  return json;
 }
 
 // A camera's name goes to a terminal: no control characters.
@@ -199,23 +201,30 @@ std::string printable(std::string text) {
 
 std::string optionalText(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
 
-std::string entryLine(const Entry& entry) {
+// Of the column of renderers.
+size_t nameWidth(const std::vector<Entry>& entries) {
+  size_t width = 10;
+  for (const Entry& entry : entries) width = std::max(width, entry.renderer.name.size());
+  return width;
+}
+
+std::string entryLine(const Entry& entry, size_t width) {
   const Metrics& m = entry.metrics;
   return fmt::format(
-      "{:<20} {:<10} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} "
+      "{:<20} {:<{}} {:>8.3f} {:>6} {:>6.2f} {:>6.4f} {:>6.4f} {:>7.3f} {:>7.3f} {:>8.3f} {:>5.2f} {:>9.2f} {:>9} "
       "{:>6}\n",
-      printable(entry.camera), entry.renderer.name, m.paperError, optionalText(entry.ratioToFull1spp), m.psnr, m.ssim,
-      m.flip, 100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs,
+      printable(entry.camera), entry.renderer.name, width, m.paperError, optionalText(entry.ratioToFull1spp), m.psnr,
+      m.ssim, m.flip, 100 * m.holeRate, 100 * m.leakRate, 100 * m.coverageBias, m.impostorShare, entry.frame.medianMs,
       entry.triangles, entry.impostors);
 }
 
-std::string summaryLine(const RendererSummary& summary) {
+std::string summaryLine(const RendererSummary& summary, size_t width) {
   return fmt::format(
-      "{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9.2f} {:>9.3f}\n", summary.renderer, summary.rendererClass,
-      optionalText(summary.all.ratioToFull1spp), optionalText(summary.all.worstRatio),
+      "{:<{}} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9.2f} {:>9.3f} {:>9.0f} {:>5}\n", summary.renderer, width,
+      summary.rendererClass, optionalText(summary.all.ratioToFull1spp), optionalText(summary.all.worstRatio),
       fmt::format("{} ({})", optionalText(summary.mostlyImpostors.ratioToFull1spp), summary.mostlyImpostors.cameras),
       fmt::format("{} ({})", optionalText(summary.elsewhere.ratioToFull1spp), summary.elsewhere.cameras),
-      summary.medianFrameMs, 100 * summary.worstHoleRate);
+      summary.medianFrameMs, 100 * summary.worstHoleRate, summary.medianTriangles, summary.onParetoFront ? "*" : "");
 }
 
 }  // namespace
@@ -224,25 +233,34 @@ Json reportJson(const ReportFacts& facts, const std::vector<Entry>& entries) {
   Json json = factsJson(facts);
   json["entries"] = Json::array();
   for (const Entry& entry : entries) json["entries"].push_back(entryJson(entry));
-  json["summary"] = summaryJson(entries);
+  json["summary"] = Json::object();
+  for (const RendererSummary& summary : summarise(entries)) json["summary"][summary.renderer] = summaryJson(summary);
   return json;
 }
 
 std::string reportCsv(const std::vector<Entry>& entries) {
-  std::string text = csvLine({}, true);
-  for (const Entry& entry : entries) text += csvLine(entry, false);
+  std::string text = csvLine(flatSettings(entryJson({})), true);
+  for (const Entry& entry : entries) text += csvLine(flatSettings(entryJson(entry)), false);
+  return text;
+}
+
+std::string summaryCsv(const std::vector<Entry>& entries) {
+  std::string text = csvLine(summaryLineJson({}), true);
+  for (const RendererSummary& summary : summarise(entries)) text += csvLine(summaryLineJson(summary), false);
   return text;
 }
 
 std::string reportTable(const std::vector<Entry>& entries) {
+  const size_t width = nameWidth(entries);
   std::string text =
-      fmt::format("{:<20} {:<10} {:>8} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n", "camera",
-                  "renderer", "error", "ratio", "psnr", "ssim", "flip", "hole %", "leak %", "cover %", "imp.",
+      fmt::format("{:<20} {:<{}} {:>8} {:>6} {:>6} {:>6} {:>6} {:>7} {:>7} {:>8} {:>5} {:>9} {:>9} {:>6}\n", "camera",
+                  "renderer", width, "error", "ratio", "psnr", "ssim", "flip", "hole %", "leak %", "cover %", "imp.",
                   "frame ms", "triangles", "cells");
-  for (const Entry& entry : entries) text += entryLine(entry);
-  text += fmt::format("\n{:<10} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9} {:>9}\n", "renderer", "class", "ratio", "worst",
-                      "impostors >= .8 (n)", "elsewhere (n)", "frame ms", "hole %");
-  for (const RendererSummary& summary : summarise(entries)) text += summaryLine(summary);
+  for (const Entry& entry : entries) text += entryLine(entry, width);
+  text +=
+      fmt::format("\n{:<{}} {:<9} {:>8} {:>8} {:>20} {:>20} {:>9} {:>9} {:>9} {:>5}\n", "renderer", width, "class",
+                  "ratio", "worst", "impostors >= .8 (n)", "elsewhere (n)", "frame ms", "hole %", "triangles", "front");
+  for (const RendererSummary& summary : summarise(entries)) text += summaryLine(summary, width);
   return text;
 }
 

@@ -1,4 +1,5 @@
-// A report as it is written: report.json (a contract with the work that reads it), report.csv, a table to read.
+// A report as it is written: report.json (a contract with the work that reads it), report.csv, summary.csv, a table to
+// read.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -32,6 +33,8 @@ struct ReportFacts {
 nlohmann::ordered_json reportJson(const ReportFacts& facts, const std::vector<Entry>& entries);
 // One line an entry, the same figures under the same names.
 std::string reportCsv(const std::vector<Entry>& entries);
+// One line a renderer: the members of summary{} under the same names, after its own.
+std::string summaryCsv(const std::vector<Entry>& entries);
 std::string reportTable(const std::vector<Entry>& entries);
 
 }  // namespace farcell

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+
+#include "tools/evaluate/report/pareto.h"
 
 namespace farcell {
 namespace {
@@ -26,20 +29,32 @@ RatioSummary summariseRatios(std::span<const Entry> entries, const std::function
 RendererSummary summariseRenderer(std::span<const Entry> entries, const RendererPlan& renderer) {
   const auto own = [&](const Entry& entry) { return entry.renderer.name == renderer.name; };
   const auto impostors = [&](const Entry& entry) { return entry.metrics.impostorShare >= kMostlyImpostors; };
-  RendererSummary summary{renderer.name, renderer.rendererClass, {}, {}, {}, 0, 0, 0};
+  RendererSummary summary{renderer.name, renderer.rendererClass, {}, {}, {}, 0, 0, 0, 0, false};
   summary.all = summariseRatios(entries, own);
   summary.mostlyImpostors = summariseRatios(entries, [&](const Entry& e) { return own(e) && impostors(e); });
   summary.elsewhere = summariseRatios(entries, [&](const Entry& e) { return own(e) && !impostors(e); });
-  std::vector<double> frames;
+  std::vector<double> frames, triangles;
   for (const Entry& entry : entries) {
     if (!own(entry)) continue;
     frames.push_back(entry.frame.medianMs);
+    triangles.push_back(static_cast<double>(entry.triangles));
     summary.worstHoleRate = std::max(summary.worstHoleRate, entry.metrics.holeRate);
     summary.meanFlip += entry.metrics.flip;
   }
   summary.medianFrameMs = medianOf(frames);
+  summary.medianTriangles = medianOf(triangles);
   summary.meanFlip /= static_cast<double>(frames.size());
   return summary;
+}
+
+void markFront(std::vector<RendererSummary>& summaries) {
+  std::vector<ErrorAndTime> points;
+  for (const RendererSummary& summary : summaries)
+    points.push_back(
+        {summary.all.ratioToFull1spp.value_or(std::numeric_limits<double>::infinity()), summary.medianFrameMs});
+  const std::vector<bool> front = paretoFront(points);
+  for (size_t i = 0; i < summaries.size(); ++i)
+    summaries[i].onParetoFront = front[i] && summaries[i].all.ratioToFull1spp.has_value();
 }
 
 }  // namespace
@@ -63,6 +78,7 @@ std::vector<RendererSummary> summarise(std::span<const Entry> entries) {
     });
     if (!known) summaries.push_back(summariseRenderer(entries, entry.renderer));
   }
+  markFront(summaries);
   return summaries;
 }
 

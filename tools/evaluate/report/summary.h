@@ -25,9 +25,11 @@ struct RendererSummary {
   RatioSummary all;
   RatioSummary mostlyImpostors;  // entries with impostorShare >= kMostlyImpostors
   RatioSummary elsewhere;
-  double medianFrameMs = 0;  // median over cameras of the medians
+  double medianFrameMs = 0;    // median over cameras of the medians
+  double medianTriangles = 0;  // over cameras
   double worstHoleRate = 0;
-  double meanFlip = 0;  // over cameras
+  double meanFlip = 0;         // over cameras
+  bool onParetoFront = false;  // of all.ratioToFull1spp and medianFrameMs; false without a ratio
 };
 
 // Sets each entry's ratio from the baseline entry of the same camera. REQUIRES: no two cameras of one name.

@@ -94,6 +94,38 @@ TEST_F(Page, NamesFromOutsideStayText) {
   EXPECT_NE(dom.find("{{data}}"), std::string::npos) << "what was put in is not searched again";
 }
 
+TEST_F(Page, PlotsEveryRendererAndTheFrontWhateverTheNames) {
+  std::vector<Entry> entries = entriesOf({"one", "two"});
+  for (Entry& entry : entries) {
+    if (entry.renderer.name == "auto") entry.renderer.name = "auto@texel-pixels=0.35@triangle-budget=2M";
+    if (entry.renderer.name == "flat") entry.renderer.name = kHostile;
+    if (entry.renderer.name == "A") entry.renderer.name = "A@" + kHostile;
+  }
+  size_t best = 0;
+  for (const RendererSummary& summary : summarise(entries)) best += summary.onParetoFront ? 1 : 0;
+  ASSERT_GT(best, 0u);
+  const std::string dom = chromium_.domOf(write(entries));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_EQ(countOf(dom, "class=\"dot best\""), best);
+  EXPECT_EQ(countOf(dom, "class=\"dot\""), 7 - best);
+  EXPECT_EQ(countOf(dom, "class=\"front\""), 1u);
+  EXPECT_EQ(countOf(dom, "class=\"baseline\""), 2u) << "full geometry at one and at four samples";
+  EXPECT_NE(dom.find(">0.35 · 2M</text>"), std::string::npos) << "a variant's values";
+  EXPECT_NE(dom.find("<title>auto@texel-pixels=0.35@triangle-budget=2M: ratio "), std::string::npos);
+  EXPECT_EQ(countOf(dom, "<td>●</td>"), best) << "in the table";
+  EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
+  EXPECT_EQ(dom.find("<title>owned"), std::string::npos);
+  EXPECT_NE(dom.find("<title>&lt;/script&gt;"), std::string::npos);
+}
+
+TEST_F(Page, SaysWhenNoRendererHasARatio) {
+  std::vector<Entry> entries = entriesOf({"one"});
+  for (Entry& entry : entries) entry.ratioToFull1spp.reset();
+  const std::string dom = chromium_.domOf(write(entries));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_NE(dom.find(">No ratio to show</text>"), std::string::npos);
+}
+
 TEST_F(Page, SaysWhenTheRunWasInterrupted) {
   EXPECT_NE(chromium_.domOf(write(entriesOf({"a"}))).find("id=\"incomplete\" class=\"banner\" hidden"),
             std::string::npos);

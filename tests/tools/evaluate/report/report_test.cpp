@@ -1,7 +1,9 @@
 #include "tools/evaluate/report/report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -179,6 +181,81 @@ TEST(ReportCsv, HasTheSameFiguresUnderTheSameNames) {
     }
   }
   EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST(SummaryCsv, HasALineForEachRendererWithTheSummarysFiguresUnderTheSameNames) {
+  const std::vector<Entry> entries = twoCameras();
+  const Json summary = reportJson(Facts().facts, entries)["summary"];
+  std::istringstream text(summaryCsv(entries));
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> names = csvFields(line);
+  for (const char* name : {"ratioToFull1spp", "worstRatio", "worstHoleRate", "medianFrameMs", "medianTriangles",
+                           "onParetoFront", "mostlyImpostors.cameras"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  for (const char* renderer : {"full-1spp", "auto"}) {
+    ASSERT_TRUE(std::getline(text, line));
+    const std::vector<std::string> fields = csvFields(line);
+    ASSERT_EQ(fields.size(), names.size());
+    EXPECT_EQ(fields[0], renderer);
+    for (size_t column = 1; column < names.size(); ++column) {
+      std::string pointer = fmt::format("/{}", names[column]);
+      std::replace(pointer.begin(), pointer.end(), '.', '/');
+      const Json& value = summary.at(renderer).at(Json::json_pointer(pointer));
+      EXPECT_EQ(fields[column], value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+  EXPECT_FALSE(std::getline(text, line));
+}
+
+TEST(Summary, MarksTheParetoFrontOfRatioAndFrameTime) {
+  // Median frame times: full-1spp 2 ms, full-4spp 5, A 2 and less error than full-1spp, auto 9 and the least error.
+  std::vector<Entry> entries;
+  const auto add = [&](const std::string& camera, const std::string& renderer, double error, double ms,
+                       uint64_t triangles) {
+    Entry& entry = entries.emplace_back(entryOf(camera, renderer, error));
+    entry.frame = frameTimes({ms});
+    entry.triangles = triangles;
+  };
+  for (const char* camera : {"near", "far"}) {
+    add(camera, "full-1spp", 10, 2, 100);
+    add(camera, "full-4spp", 4, 5, 100);
+    add(camera, "A", 5, 2, 0);
+    add(camera, "flat", 20, 6, 0);
+    add(camera, "auto", 2, 9, camera[0] == 'n' ? 30 : 10);
+  }
+  setRatios(entries);
+  const Json summary = reportJson(Facts().facts, entries)["summary"];
+  std::string front;
+  for (const auto& [name, renderer] : summary.items())
+    if (renderer.at("onParetoFront") == true) front += name + " ";
+  EXPECT_EQ(front, "full-4spp A auto ");
+  EXPECT_EQ(summary["auto"]["medianTriangles"], 20);
+  EXPECT_EQ(summary["auto"]["medianFrameMs"], 9);
+}
+
+TEST(Summary, WithoutARatioNothingIsOnTheFront) {
+  std::vector<Entry> entries = {entryOf("nothing", "full-1spp", 0)};
+  setRatios(entries);
+  EXPECT_FALSE(summarise(entries)[0].onParetoFront);
+}
+
+TEST(ReportTable, ColumnsStayInLineUnderTheLongestName) {
+  std::vector<Entry> entries = twoCameras();
+  entries[1].renderer.name = entries[3].renderer.name = "auto@texel-pixels=0.35@triangle-budget=100k";
+  std::istringstream table(reportTable(entries));
+  std::string heading, line;
+  std::getline(table, heading);
+  for (std::getline(table, line); !line.empty(); std::getline(table, line))
+    EXPECT_EQ(line.size(), heading.size()) << line;
+  std::getline(table, heading);
+  EXPECT_TRUE(heading.ends_with("front"));
+  int stars = 0;
+  while (std::getline(table, line)) {
+    EXPECT_EQ(line.size(), heading.size()) << line;
+    stars += line.ends_with('*') ? 1 : 0;
+  }
+  EXPECT_EQ(stars, 1) << "all take the same time: the least error alone is on the front";
 }
 
 TEST(ReportTable, ShowsEveryEntryAndNoControlCharacters) {

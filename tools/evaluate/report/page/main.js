@@ -63,6 +63,7 @@ function picturesChanged() {
 readAddress();
 makeHeader();
 makeSummary();
+makeFront();
 makePlots();
 if (cameras.length) makePictures();
 makeEntries();

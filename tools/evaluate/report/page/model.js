@@ -71,14 +71,18 @@ const entries = report.entries;
 // Order of first occurrence; the stem of a camera's files is its identity.
 const cameras = [...new Map(entries.map((entry) => [entry.stem, { stem: entry.stem, name: entry.camera }])).values()];
 
-// A class has a mark of its own and a family of colours (style.css), in order.
+// A class has a mark of its own and a family of colours (style.css), in order. The variants of a sweep, as
+// "auto@texel-pixels=0.5@triangle-budget=2M", share the colour of their renderer; their values tell them apart.
 const marks = { geometry: "circle", impostor: "square", mixed: "diamond" };
 const renderers = [];
 for (const entry of entries) {
   if (renderers.some((renderer) => renderer.name === entry.renderer)) continue;
   const family = marks[entry.class] ? entry.class : "mixed";
-  const place = renderers.filter((renderer) => renderer.family === family).length % 5;
-  renderers.push({ name: entry.renderer, family, mark: marks[family], colour: `var(--${family}-${place})`,
+  const [base, ...swept] = entry.renderer.split("@");
+  const others = new Set(renderers.filter((renderer) => renderer.family === family).map((renderer) => renderer.base));
+  const place = (others.has(base) ? [...others].indexOf(base) : others.size) % 5;
+  renderers.push({ name: entry.renderer, base, family, mark: marks[family], colour: `var(--${family}-${place})`,
+    label: swept.map((setting) => setting.slice(setting.indexOf("=") + 1)).join(" · ") || base,
     settings: entry.settings });
 }
 const rendererOf = (entry) => renderers.find((renderer) => renderer.name === entry.renderer);
@@ -106,7 +110,7 @@ const choice = {
   hidden: new Set(),
   camera: cameras.length ? cameras[0].stem : "",
   left: "reference",
-  right: sides.includes("auto") ? "auto" : sides[sides.length - 1],
+  right: sides.find((name) => name.split("@")[0] === "auto") ?? sides[sides.length - 1],
   mode: "picture",
 };
 

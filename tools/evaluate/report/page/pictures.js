@@ -3,7 +3,7 @@
 const view = { split: 0.5, zoom: 1, x: 0, y: 0 };  // x, y: shift in pixels of the viewer
 const viewer = {};
 
-// Stems and renderers' names are made of letters, digits, '-' and '_' by the program that wrote the files.
+// Stems and names of renderers are made by the program that wrote the files, without quotes or slashes.
 function pictureFile(side, mode) {
   const end = side === "reference" ? "reference" : mode === "picture" ? side : `${side}.${mode}`;
   return `${encodeURIComponent(choice.camera)}.${encodeURIComponent(end)}.png`;

@@ -23,12 +23,12 @@ function plotData(cost) {
   for (const renderer of renderers) {
     const own = points.filter((point) => point.renderer === renderer);
     if (own.length)
-      medians.push({ renderer, x: median(own.map((point) => point.x)), y: median(own.map((point) => point.y)) });
+      medians.push({ renderer, label: renderer.label, x: median(own.map((point) => point.x)), y: median(own.map((point) => point.y)) });
   }
   return { points, medians, missingCount };
 }
 
-function axisShapes(plot, xScale, yScale, cost) {
+function axisShapes(plot, xScale, yScale, cost, error) {
   const { width, height } = plot, bottom = height - margin.bottom, right = width - margin.right;
   const group = shape("g", { class: "axes" });
   const line = (x1, y1, x2, y2, kind) => group.append(shape("line", { x1, y1, x2, y2, class: kind }));
@@ -41,7 +41,7 @@ function axisShapes(plot, xScale, yScale, cost) {
   for (const tick of yScale.ticks) {
     const y = yScale.at(tick.value);
     line(margin.left, y, right, y, tick.named ? "grid" : "grid minor");
-    if (tick.named) text(margin.left - 8, y + 4, "tick y", metric().tick(tick.value));
+    if (tick.named) text(margin.left - 8, y + 4, "tick y", error.tick(tick.value));
   }
   if (xScale.zero) {
     line(xScale.start, margin.top, xScale.start, bottom, "break");
@@ -51,31 +51,12 @@ function axisShapes(plot, xScale, yScale, cost) {
     line(margin.left, yScale.start, right, yScale.start, "break");
     text(margin.left - 8, yScale.at(0) + 4, "tick y", "0");
   }
-  if (metric().line) line(margin.left, yScale.at(metric().line), right, yScale.at(metric().line), "level");
+  if (error.line) line(margin.left, yScale.at(error.line), right, yScale.at(error.line), "level");
   line(margin.left, bottom, right, bottom, "axis");
   line(margin.left, margin.top, margin.left, bottom, "axis");
   text((margin.left + right) / 2, height - 8, "title x", axisName(cost));
-  text(margin.left - 46, 13, "title", `${axisName(metric())} (${metric().higher ? "higher" : "lower"} is better)`);
+  text(margin.left - 46, 13, "title", `${axisName(error)} (${error.higher ? "higher" : "lower"} is better)`);
   return group;
-}
-
-// Names beside the medians, where there is room: to the right, left, above, below.
-function medianLabels(plot, medians) {
-  const taken = medians.map(({ px, py }) => ({ x: px - 7, y: py - 7, width: 14, height: 14 }));
-  const free = (box) => box.x > margin.left && box.x + box.width < plot.width - 4 && box.y > margin.top - 8 &&
-    box.y + box.height < plot.height - margin.bottom && taken.every((other) => box.x > other.x + other.width ||
-      other.x > box.x + box.width || box.y > other.y + other.height || other.y > box.y + box.height);
-  const labels = [];
-  for (const { renderer, px, py } of medians) {
-    const width = 7 * renderer.name.length + 4, height = 14;
-    const box = [[px + 9, py - 7], [px - 9 - width, py - 7], [px - width / 2, py - 23], [px - width / 2, py + 9]]
-      .map(([x, y]) => ({ x, y, width, height })).find(free);
-    if (!box) continue;
-    taken.push(box);
-    labels.push(shape("text", { x: box.x + 2, y: box.y + 11, class: "name", style: `fill:${renderer.colour}` },
-      renderer.name));
-  }
-  return labels;
 }
 
 const markShape = (point, kind, radius) => shape("path", { class: kind, d: markPath(point.renderer.mark, radius),
@@ -110,8 +91,8 @@ function drawPlot(plot) {
     point.py = yScale.at(point.y);
   }
   plot.overlay = shape("g", { class: "overlay" });
-  plot.svg.append(axisShapes(plot, xScale, yScale, cost),
+  plot.svg.append(axisShapes(plot, xScale, yScale, cost, metric()),
     shape("g", {}, ...data.points.map((point) => markShape(point, "point", 3.2))), plot.overlay,
-    shape("g", {}, ...data.medians.map((point) => markShape(point, "median", 6.5)), ...medianLabels(plot, data.medians)));
+    shape("g", {}, ...data.medians.map((point) => markShape(point, "median", 6.5)), ...makeLabels(plot, data.medians, 1)));
   plot.note.textContent = data.missingCount ? `${data.missingCount} entries have no such value.` : "";
 }

@@ -51,17 +51,20 @@ function makeSummary() {
   };
   makeTable(byId("summary"), [
     { title: "Renderer", hint: "", value: (row) => row.name, cell: (row) => rendererCell(row.name) },
-    { title: "Class", hint: "", value: (row) => row.class, text: (row) => row.class },
     { title: "Ratio", hint: "Geometric mean over all cameras", numeric: true, value: (row) => row.ratioToFull1spp,
       cell: bar },
     numeric("Worst", "The worst camera's ratio", (row) => row.worstRatio, fixed(3)),
+    numeric("Worst holes, %", figures.holeRate.text, (row) => row.worstHoleRate, percent),
+    numeric("Frame, ms", "Median over cameras", (row) => row.medianFrameMs, figure),
+    numeric("Triangles", "Median over cameras", (row) => row.medianTriangles, whole),
+    { title: "Front", hint: "No other has less error in as little time, or as little error in less",
+      value: (row) => (row.onParetoFront ? 1 : 0), text: (row) => (row.onParetoFront ? "●" : "") },
     { title: "Mostly impostors (n)", hint: "Ratio where impostors draw at least 80 % of the foreground", numeric: true,
       value: (row) => row.mostlyImpostors.ratioToFull1spp, text: part("mostlyImpostors") },
     { title: "Elsewhere (n)", hint: "Ratio of the other cameras", numeric: true,
       value: (row) => row.elsewhere.ratioToFull1spp, text: part("elsewhere") },
     numeric("FLIP", "Mean over cameras", (row) => row.meanFlip, fixed(4)),
-    numeric("Worst holes, %", figures.holeRate.text, (row) => row.worstHoleRate, percent),
-    numeric("Frame, ms", "Median over cameras", (row) => row.medianFrameMs, figure),
+    { title: "Class", hint: "", value: (row) => row.class, text: (row) => row.class },
   ], rows);
 }
 
