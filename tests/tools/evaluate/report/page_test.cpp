@@ -78,16 +78,16 @@ TEST_F(Page, DrawsHundredsOfEntries) {
   for (int i = 0; i < 60; ++i) names.push_back("camera " + std::to_string(i));
   const std::string dom = chromium_.domOf(write(entriesOf(names)));
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  EXPECT_EQ(countOf(dom, "class=\"point\""), 2u * 60 * 7) << "one in each plot";
-  EXPECT_EQ(countOf(dom, "class=\"median\""), 2u * 7);
-  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 60u * 7);
-  EXPECT_NE(dom.find("420 of 420 entries"), std::string::npos);
+  EXPECT_EQ(countOf(dom, "class=\"point\""), 2u * 60 * 8) << "one in each plot";
+  EXPECT_EQ(countOf(dom, "class=\"median\""), 2u * 8);
+  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 60u * 8);
+  EXPECT_NE(dom.find("480 of 480 entries"), std::string::npos);
 }
 
 TEST_F(Page, NamesFromOutsideStayText) {
   const std::string dom = chromium_.domOf(write(entriesOf({kHostile, kHostile, ""})), "#camera=%3Cb%3E&y=constructor");
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 3u * 7) << "cameras of one name are kept apart";
+  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 3u * 8) << "cameras of one name are kept apart";
   EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
   EXPECT_EQ(dom.find("<title>owned"), std::string::npos);
   EXPECT_NE(dom.find("&lt;img src=x onerror="), std::string::npos);
