@@ -172,7 +172,7 @@ TEST_F(Page, FollowsWhatAReaderDoes) {
   )js";
   const std::string dom = chromium_.domOf(write(entriesOf({"one", "two"}), script));
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  EXPECT_NE(dom.find("<p id=\"result\">14 | 12 | 2 | true | true | 2 of 14 entries | false | 1 | two,reference,flat | "
+  EXPECT_NE(dom.find("<p id=\"result\">16 | 14 | 2 | true | true | 2 of 16 entries | false | 1 | two,reference,flat | "
                      "FLIP, 0 to 1 | true</p>"),
             std::string::npos)
       << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 400);
