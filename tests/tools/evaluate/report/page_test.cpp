@@ -146,7 +146,7 @@ TEST_F(Page, FollowsWhatAReaderDoes) {
     const metric = document.getElementById("metric");
     metric.value = "ratioToFull1spp";
     metric.dispatchEvent(new Event("change"));
-    note(all(".level").length);                                                // the line at 1, in both plots
+    note(all(".plots .level").length);                                         // the line at 1, in both plots
     const heading = all("#entries thead button").find((button) => button.textContent === "Error");
     const errors = () => all("#entries tbody tr").map((row) => Number(row.children[2].textContent));
     const sorted = (values) => values.every((value, i) => i === 0 || values[i - 1] <= value);

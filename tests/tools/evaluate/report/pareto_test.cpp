@@ -30,9 +30,9 @@ TEST(ParetoFront, IsWhatNoOtherPointBeats) {
 TEST(ParetoFront, EqualsBruteForceOnPointsWithTies) {
   for (uint32_t seed = 1; seed <= 2000; ++seed) {
     std::mt19937 random(seed);
-    const uint32_t count = random() % 40, values = 1 + random() % 12;
+    const size_t count = random() % 40, values = 1 + random() % 12;
     std::vector<ErrorAndTime> points;
-    for (uint32_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; ++i)
       points.push_back({static_cast<double>(random() % values), static_cast<double>(random() % values)});
     ASSERT_EQ(paretoFront(points), bruteForce(points)) << "seed " << seed;
   }
