@@ -78,16 +78,16 @@ TEST_F(Page, DrawsHundredsOfEntries) {
   for (int i = 0; i < 60; ++i) names.push_back("camera " + std::to_string(i));
   const std::string dom = chromium_.domOf(write(entriesOf(names)));
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  EXPECT_EQ(countOf(dom, "class=\"point\""), 2u * 60 * 8) << "one in each plot";
-  EXPECT_EQ(countOf(dom, "class=\"median\""), 2u * 8);
-  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 60u * 8);
-  EXPECT_NE(dom.find("480 of 480 entries"), std::string::npos);
+  EXPECT_EQ(countOf(dom, "class=\"point\""), 2u * 60 * 10) << "one in each plot";
+  EXPECT_EQ(countOf(dom, "class=\"median\""), 2u * 10);
+  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 60u * 10);
+  EXPECT_NE(dom.find("600 of 600 entries"), std::string::npos);
 }
 
 TEST_F(Page, NamesFromOutsideStayText) {
   const std::string dom = chromium_.domOf(write(entriesOf({kHostile, kHostile, ""})), "#camera=%3Cb%3E&y=constructor");
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 3u * 8) << "cameras of one name are kept apart";
+  EXPECT_EQ(countOf(dom, "title=\"Show its pictures\""), 3u * 10) << "cameras of one name are kept apart";
   EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
   EXPECT_EQ(dom.find("<title>owned"), std::string::npos);
   EXPECT_NE(dom.find("&lt;img src=x onerror="), std::string::npos);
@@ -173,7 +173,7 @@ TEST_F(Page, FollowsWhatAReaderDoes) {
   )js";
   const std::string dom = chromium_.domOf(write(entriesOf({"one", "two"}), script));
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  EXPECT_NE(dom.find("<p id=\"result\">16 | 14 | 2 | true | true | 2 of 16 entries | false | 1 | two,reference,flat | "
+  EXPECT_NE(dom.find("<p id=\"result\">20 | 18 | 2 | true | true | 2 of 20 entries | false | 1 | two,reference,flat | "
                      "FLIP, 0 to 1 | true</p>"),
             std::string::npos)
       << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 400);
