@@ -26,7 +26,7 @@ struct SyntheticPack {
   bool withViews = true;
   bool withInnerViews = true;
   bool withNormals = false;  // of views
-  std::vector<int> leftOut;  // views that no cell has
+  std::vector<int> leftOut = {};  // views that no cell has
   UpAxis up = UpAxis::z;
 };
 
