@@ -85,7 +85,7 @@ std::vector<std::byte> planesCoded(const CellImage& image) {
   view.depth.resize(image.rgba.size() / 4);  // a view has one; all zero, it takes next to nothing
   std::vector<std::byte> best;
   for (const Arrangement arrangement : {Arrangement::plain, Arrangement::sparse}) {
-    const ArrangedView arranged = arrangedFromView(view, kPlanesWithoutNormals, arrangement);
+    const ArrangedView arranged = arrangedFromView(view, kPlanesWithoutNormals, arrangement, {});
     std::vector<std::byte> coded = zlibCompress(arranged.bytes, kPackZlibLevel);
     if (best.empty() || coded.size() < best.size()) best = std::move(coded);
   }
