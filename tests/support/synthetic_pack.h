@@ -25,7 +25,7 @@ struct SyntheticPack {
   int samplesPerEdge = 3;  // of a texel
   bool withViews = true;
   bool withInnerViews = true;
-  bool withNormals = false;  // of views
+  bool withNormals = false;       // of views
   std::vector<int> leftOut = {};  // views that no cell has
   UpAxis up = UpAxis::z;
 };
