@@ -76,27 +76,17 @@ vec4 colourAt(vec2 texel, float layer, float s) {
   return textureLod(colours, vec3(texel * frame.image.y, layer), lod);
 }
 
-// Where the ray goes behind all that the view saw, within its crop: nothing is known there.
-float behindAll(vec3 point, vec3 along, vec3 low, vec3 high, vec2 inBox) {
-  vec2 column = slab(point, along, vec3(low.xy, -kNowhere), high);
-  float sinks = (low.z - point.z) / (along.z + 1e-30);
-  float first = max(max(column.x, inBox.x), along.z < 0.0 ? sinks : -kNowhere);
-  float last = min(min(column.y, inBox.y), along.z < 0.0 ? kNowhere : sinks);
-  return first < last ? first : kNowhere;
-}
-
 // Looks through one view. point: boxPoint in its texture space; from: its eye, w: edge of a texel in depth values;
 // low: its box, w: its layer. Sets `found` to the colour of what it returns, `place` to its texel and its s, and `hidden`
 // to where the ray first was behind the surface, where the view knows nothing: before that, and where it is nowhere,
 // there is nothing to be seen.
 int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 found, inout vec3 place,
-         out float hidden) {
+         inout float hidden) {
   vec3 along = point - from.xyz;
   vec2 inView = slab(point, along, low.xyz, high);
   float first = max(max(inBox.x, inView.x), -1.0);
   float last = min(inBox.y, inView.y);
   float texel = from.w;
-  hidden = behindAll(point, along, low.xyz, high, inBox);
 
   float steps = clamp(ceil(length(along.xy) * (last - first) / kMarchTexels), 2.0, float(kMarchSteps));
   float stepLength = (last - first) / steps;
@@ -172,18 +162,19 @@ struct Found {
 };
 
 // What the ray through a point of the box's back finds. points: the same one in the spaces of the views. What the
-// nearest view knows to be empty need not be looked for in the others.
+// nearest view shows to be empty is not looked for in the third.
 Found find(vec3 local, vec3 points[VIEWS]) {
   vec2 inBox = slab(local, local - eye.xyz, boxMin, boxMax);
   Found found = Found(vec4(0.0), vec3(0.0), 0, vec4(0.0), false);
-  float hidden;
+  float hidden = kNowhere;
   found.onSurface =
       look(points[0], viewEye[0], viewMin[0], viewMax[0].xyz, inBox, found.seen, found.place, hidden) == kSurface;
   found.jump = found.seen;
-  if (viewMin[0].x < viewMax[0].x) inBox.x = max(inBox.x, hidden);
-  for (int i = 1; i < VIEWS && !found.onSurface && inBox.x < inBox.y; ++i) {
+  for (int i = 1; i < VIEWS && !found.onSurface; ++i) {
+    if (i == 2) inBox.x = max(inBox.x, hidden);
+    if (inBox.x >= inBox.y) break;
     Found other = Found(vec4(0.0), vec3(0.0), i, found.jump, true);
-    float ignored;
+    float ignored = kNowhere;
     if (look(points[i], viewEye[i], viewMin[i], viewMax[i].xyz, inBox, other.seen, other.place, ignored) == kSurface)
       found = other;
   }
