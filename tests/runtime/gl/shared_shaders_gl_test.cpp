@@ -104,7 +104,7 @@ GLint offsetOf(const GlProgram& program, GLenum kind, const char* name) {
 }
 
 TEST_F(SharedShaders, structuresLieAlikeInCppAndInTheDriver) {
-  const auto program = loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", {}});
+  const auto program = loadProgram({"shaders/gl/impostor.vert", "shaders/gl/impostor.frag", {"VIEWS 3"}});
   ASSERT_TRUE(program) << program.error().message;
   using shared::FrameUniforms, shared::ImpostorInstance;
   EXPECT_EQ(offsetOf(*program, GL_UNIFORM, "frame.clipX"), static_cast<GLint>(offsetof(FrameUniforms, clipX)));

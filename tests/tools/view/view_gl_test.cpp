@@ -194,7 +194,8 @@ TEST_F(OpenViewer, keysMoveTheCameraFitBringsItBackAndEscapeQuits) {
 TEST_F(OpenViewer, whatItSavesIsWhatItSaysAndRenderDrawsItAgain) {
   if (!open("a.far --size 320x200 --background 9,9,9")) GTEST_SKIP() << "Xvfb or xdotool is not installed";
   hand("key m");  // auto -> impostors
-  hand("key k");  // A -> flat
+  hand("key k");  // A -> B
+  hand("key k");  // B -> flat
   EXPECT_EQ(hand("search --sync --onlyvisible --name 'a.far . orbit, impostors, flat'"), 0);
   restingCamera();
   const fs::path saved = captures().back();
