@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "cache/base/progress.h"
+#include "cache/base/sealed_file.h"
 #include "cache/schema/model.h"
 #include "preprocess/mesh/mesh_reader.h"
 #include "preprocess/partition/bucket_file.h"
-#include "cache/base/sealed_file.h"
 
 namespace farcell {
 

@@ -63,9 +63,8 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Writes a pack again in fewer bytes.\n"
       "Every page is coded anew with more patience than a build has: slowly, on all cores, once for packs that are "
-      "kept "
-      "or "
-      "sent. Nothing is lost: each page is decoded and compared before it is written, and is read as fast as before.",
+      "kept or sent. Nothing is lost: each page is decoded and compared before it is written, and is read as fast as "
+      "before.",
       "farcell-repack");
   app.footer(
       "Examples:\n"

@@ -3,8 +3,6 @@
 // the bytes are coded by other coders.
 // usage: bench_codec <pack> [<views between two for other coders, 0: none>]    CSV on stdout; MB/s are raw; units are
 // texels or triangles.
-#include <time.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -18,15 +16,10 @@
 #include "tests/bench/codec/coders.h"
 #include "tests/bench/codec/near.h"
 #include "tests/bench/codec/reproject.h"
+#include "tests/bench/thread_seconds.h"
 
 namespace farcell {
 namespace {
-
-double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Totals {
   uint64_t pages = 0;

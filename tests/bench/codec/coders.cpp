@@ -1,6 +1,5 @@
 #include "tests/bench/codec/coders.h"
 
-#include <time.h>
 #include <webp/decode.h>
 #include <webp/encode.h>
 #include <zstd.h>
@@ -11,17 +10,12 @@
 #include "cache/base/check.h"
 #include "cache/pack/encoded_view.h"
 #include "cache/pack/zlib_stream.h"
+#include "tests/bench/thread_seconds.h"
 
 namespace farcell {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-
-double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Bytes texelsOf(const ViewImage& view) {
   Bytes texels;

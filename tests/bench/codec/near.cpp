@@ -1,21 +1,14 @@
 #include "tests/bench/codec/near.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cstdlib>
 
 #include "cache/base/check.h"
 #include "cache/pack/encoded_view.h"
+#include "tests/bench/thread_seconds.h"
 
 namespace farcell {
 namespace {
-
-double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // The nearest multiple of the step in the range.
 uint8_t rounded(int value, int step, int lowest, int highest) {

@@ -1,7 +1,5 @@
 // Makes the levels of detail of a model by several ways and says what each costs and keeps.
 // usage: bench_lod <model> [--leaf-triangles N] [--target N] [--way NAME] [--threads N] [--ply DIRECTORY]
-#include <time.h>
-
 #include <CLI/CLI.hpp>
 #include <fstream>
 
@@ -9,6 +7,7 @@
 #include "tests/bench/lod/appearance.h"
 #include "tests/bench/lod/tree.h"
 #include "tests/bench/lod/ways.h"
+#include "tests/bench/thread_seconds.h"
 
 namespace farcell::bench {
 namespace {
@@ -22,12 +21,6 @@ struct Options {
   int threads = 1;
   int imageSize = 128;
 };
-
-double threadSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 struct Level {
   size_t cells = 0, above = 0;
