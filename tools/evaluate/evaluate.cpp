@@ -7,18 +7,28 @@
 
 #include "cache/base/interrupt.h"
 #include "cache/base/progress.h"
+#include "tools/evaluate/measure_path.h"
 #include "tools/evaluate/measure_renderer.h"
+#include "tools/evaluate/path/camera_path.h"
+#include "tools/evaluate/path/generated_path.h"
 #include "tools/evaluate/plan/auto_cameras.h"
 #include "tools/evaluate/plan/sweep.h"
 #include "tools/evaluate/reference/reference.h"
 #include "tools/evaluate/report/names.h"
 #include "tools/evaluate/report/page.h"
+#include "tools/evaluate/report/path_report.h"
 #include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/report.h"
 #include "tools/evaluate/report/summary.h"
 
 namespace farcell {
 namespace {
+
+// A camera that moves.
+struct Path {
+  std::string name;
+  std::vector<Camera> frames;
+};
 
 // Everything a camera's measurement needs, and what has been measured.
 struct Run {
@@ -28,13 +38,16 @@ struct Run {
   std::optional<MeshReference> mesh;
   std::vector<RendererPlan> plans;
   std::vector<Camera> cameras;
-  std::vector<std::string> stems;  // of file names, one a camera
+  std::vector<Path> paths;
+  std::vector<std::string> stems;  // of file names, one a camera, then one a path
   ReportFacts facts;
-  std::vector<Entry> entries;  // of finished cameras
+  std::vector<Entry> entries;          // of finished cameras
+  std::vector<PathEntry> pathEntries;  // of finished frames
 };
 
 Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Model& model) {
   std::vector<Camera> cameras;
+  if (options.cameras.empty() && options.autoCameras == 0) return cameras;
   if (options.cameras.empty()) {
     FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
     cameras = autoCameras(model, viewpoints, options.autoCameras);
@@ -43,6 +56,27 @@ Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Mo
   }
   if (cameras.empty()) return fail(ErrorKind::invalidArgument, "{}: no cameras", options.cameras.string());
   return cameras;
+}
+
+Result<Path> loadPath(const EvaluateOptions& options, const PackFile& pack, const std::string& word) {
+  if (isGeneratedPath(word)) {
+    FARCELL_ASSIGN(std::vector<Camera> frames, generatedPath(word, pack, options.pathFrames, options.pathSeed));
+    return Path{word, std::move(frames)};
+  }
+  const std::filesystem::path file(word);
+  FARCELL_ASSIGN(const std::vector<Keyframe> keyframes, readKeyframes(file));
+  Result<std::vector<Camera>> frames = pathFrames(keyframes, options.pathFrames);
+  if (!frames) return fail(frames.error().kind, "{}: {}", word, frames.error().message);
+  return Path{file.stem().string(), *std::move(frames)};
+}
+
+Result<std::vector<Path>> loadPaths(const EvaluateOptions& options, const PackFile& pack) {
+  std::vector<Path> paths;
+  for (const std::string& word : options.paths) {
+    FARCELL_ASSIGN(Path path, loadPath(options, pack, word));
+    paths.push_back(std::move(path));
+  }
+  return paths;
 }
 
 Result<std::optional<MeshReference>> loadMesh(const EvaluateOptions& options, const Directory& directory,
@@ -92,21 +126,56 @@ Result<> measureCamera(Run& run, size_t index, Progress& progress) {
 }
 
 Result<> measureCameras(Run& run, Progress& progress) {
+  if (run.cameras.empty()) return {};
   progress.begin("evaluate", run.cameras.size() * (1 + run.plans.size()), "pictures");
   for (size_t i = 0; i < run.cameras.size(); ++i) FARCELL_TRY(measureCamera(run, i, progress));
   progress.end();
   return {};
 }
 
+Result<> measurePaths(Run& run, Progress& progress) {
+  PathSettings settings;
+  settings.output = run.options.output;
+  settings.residentBytes = run.options.residentBytes;
+  settings.background = run.options.background;
+  settings.plans = run.plans;
+  settings.trace = [&](const Camera& camera) { return traceCamera(run, camera); };
+  settings.pictureDone = [&] { progress.advance(); };
+  for (size_t i = 0; i < run.paths.size(); ++i) {
+    const Path& path = run.paths[i];
+    progress.begin("path " + path.name, path.frames.size() * (1 + run.plans.size()), "pictures");
+    PathEntry& entry = run.pathEntries.emplace_back();
+    entry.name = path.name;
+    entry.stem = run.stems[run.cameras.size() + i];
+    FARCELL_TRY(writeTextFile(run.options.output / (entry.stem + ".cameras.json"), cameraFileText(path.frames)));
+    FARCELL_TRY(measurePath(run.context, run.pack, path.frames, settings, entry));
+    progress.end();
+  }
+  return {};
+}
+
+Result<> measureAll(Run& run, Progress& progress) {
+  FARCELL_TRY(measureCameras(run, progress));
+  return measurePaths(run, progress);
+}
+
+std::string tables(const Run& run) {
+  if (run.pathEntries.empty()) return reportTable(run.entries);
+  if (run.entries.empty()) return pathsTable(run.pathEntries);
+  return reportTable(run.entries) + "\n" + pathsTable(run.pathEntries);
+}
+
 Result<> writeReport(const Run& run) {
-  const nlohmann::ordered_json json = reportJson(run.facts, run.entries);
+  nlohmann::ordered_json json = reportJson(run.facts, run.entries);
+  json["paths"] = pathsJson(run.pathEntries);
   // Names from outside may hold bytes that are not UTF-8: those are replaced.
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   FARCELL_TRY(writeTextFile(run.options.output / "report.json", text));
   FARCELL_TRY(writeTextFile(run.options.output / "report.csv", reportCsv(run.entries)));
   FARCELL_TRY(writeTextFile(run.options.output / "summary.csv", summaryCsv(run.entries)));
+  FARCELL_TRY(writeTextFile(run.options.output / "paths.csv", pathsCsv(run.pathEntries)));
   FARCELL_TRY(writeTextFile(run.options.output / "index.html", reportPage(json)));
-  std::fputs(run.options.json ? text.c_str() : reportTable(run.entries).c_str(), stdout);
+  std::fputs(run.options.json ? text.c_str() : tables(run).c_str(), stdout);
   return {};
 }
 
@@ -132,10 +201,15 @@ Result<> makeDirectory(const std::filesystem::path& path) {
   return {};
 }
 
-std::vector<std::string> cameraStems(const std::vector<Camera>& cameras) {
+std::vector<std::string> stemsOf(const std::vector<Camera>& cameras, const std::vector<Path>& paths) {
   std::vector<std::string> names;
   for (const Camera& camera : cameras) names.push_back(camera.name);
+  for (const Path& path : paths) names.push_back("path-" + path.name);
   return fileStems(names);
+}
+
+bool hasFrames(const std::vector<PathEntry>& paths) {
+  return !paths.empty() && !paths.front().runs.empty() && !paths.front().runs.front().frames.empty();
 }
 
 }  // namespace
@@ -147,26 +221,29 @@ Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_ASSIGN(plans, sweepRenderers(std::move(plans), options.sweeps));
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   FARCELL_ASSIGN(std::vector<Camera> cameras, loadCameras(options, pack.directory().model));
+  FARCELL_ASSIGN(std::vector<Path> paths, loadPaths(options, pack));
   FARCELL_TRY(makeDirectory(options.output));
   FARCELL_TRY(writeTextFile(options.output / "cameras.json", cameraFileText(cameras)));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
   Progress progress(options.progress);
   FARCELL_ASSIGN(std::optional<MeshReference> mesh, loadMesh(options, pack.directory(), progress));
 
-  std::vector<std::string> stems = cameraStems(cameras);
+  std::vector<std::string> stems = stemsOf(cameras, paths);
   Run run{options,
           pack,
           context,
           std::move(mesh),
           std::move(plans),
           std::move(cameras),
+          std::move(paths),
           std::move(stems),
           reportFacts(options, pack, context),
+          {},
           {}};
-  const Result<> measured = measureCameras(run, progress);
+  const Result<> measured = measureAll(run, progress);
   run.facts.complete = measured.has_value();
   setRatios(run.entries);
-  if (measured || !run.entries.empty()) FARCELL_TRY(writeReport(run));
+  if (measured || !run.entries.empty() || hasFrames(run.pathEntries)) FARCELL_TRY(writeReport(run));
   return measured;
 }
 

@@ -3,6 +3,7 @@
 
 #include "tools/cli/cli.h"
 #include "tools/evaluate/evaluate.h"
+#include "tools/evaluate/path/camera_path.h"
 #include "tools/evaluate/plan/renderers.h"
 #include "tools/evaluate/plan/sweep.h"
 
@@ -26,8 +27,8 @@ Result<> run(EvaluateOptions& options, const Words& words) {
   options.background =
       Colour{static_cast<float>(background[0]), static_cast<float>(background[1]), static_cast<float>(background[2])};
   options.residentBytes = words.residentMib << 20;
-  if (options.cameras.empty() && options.autoCameras == 0)
-    return fail(ErrorKind::invalidArgument, "one of --cameras and --auto-cameras is needed");
+  if (options.cameras.empty() && options.autoCameras == 0 && options.paths.empty())
+    return fail(ErrorKind::invalidArgument, "one of --cameras, --auto-cameras and --path is needed");
   return evaluate(options);
 }
 
@@ -38,6 +39,16 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
                  "instead: this many cameras between the baked directions, .25 to 8 diameters away")
       ->check(CLI::Range(1, 1000))
       ->excludes(cameras);
+  app.add_option("--path", options.paths,
+                 "a camera that moves: orbit, flyby, street (made for the model) or a camera file whose cameras are "
+                 "keyframes of a smooth path, \"time\" in seconds their own member; once for each path")
+      ->type_name("PATH")
+      ->allow_extra_args(false);
+  app.add_option("--path-frames", options.pathFrames, "frames of each path")
+      ->check(CLI::Range(2, kMaxPathFrames))
+      ->capture_default_str();
+  app.add_option("--path-seed", options.pathSeed, "draws place and direction of the paths made for the model")
+      ->capture_default_str();
   app.add_option("--mesh", options.meshes,
                  "the file the pack was built from, as the truth instead of the pack's own triangles (held in memory); "
                  "once for each file, in the order of the build")
@@ -77,7 +88,8 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--background", words.background, "colour behind every picture, 0 to 255 each")
       ->type_name("R,G,B")
       ->capture_default_str();
-  app.add_option("--resident-mib", words.residentMib, "how much of the pack may stay on the GPU, MiB")
+  app.add_option("--resident-mib", words.residentMib,
+                 "how much of the pack may stay on the GPU, MiB; of each renderer of a path")
       ->type_name("MIB")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
@@ -100,13 +112,14 @@ int main(int argc, char** argv) {
       "For each camera a reference is ray traced; each renderer's picture is compared with it and timed. The report is "
       "report.json, report.csv (a line a picture), summary.csv (a line a renderer: error, time, whether on their "
       "Pareto "
-      "front), and a page with plots and pictures of the differences.",
+      "front), paths.csv (a line a frame of a path), and a page with plots and pictures of the differences.",
       "farcell-evaluate");
   app.footer(
       "Examples:\n"
       "  farcell evaluate city.far --cameras cams.json -o report/\n"
       "  farcell evaluate city.far --auto-cameras 8 --renderers flat,A,auto --size 640x360 -o report/\n"
-      "  farcell evaluate city.far --cameras cams.json --sweep texel-pixels=0.35,0.5,1 -o report/\n");
+      "  farcell evaluate city.far --cameras cams.json --sweep texel-pixels=0.35,0.5,1 -o report/\n"
+      "  farcell evaluate city.far --path drive.json --path orbit --renderers A,auto -o report/\n");
   farcell::addOptions(app, options, words);
   return farcell::runProgram(app, argc, argv, [&] { return farcell::run(options, words); });
 }

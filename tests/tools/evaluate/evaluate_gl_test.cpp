@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/support/evaluate_models.h"
+#include "tools/image/png.h"
 
 namespace farcell {
 namespace {
@@ -159,6 +160,65 @@ TEST_F(EvaluateProgram, ACameraThatSeesNothingIsReportedButDoesNotCount) {
   const Json json = report();
   EXPECT_TRUE(json.at("entries")[0].at("ratioToFull1spp").is_null());
   EXPECT_EQ(json.at("summary").at("full-4spp").at("cameras"), 1);
+}
+
+// Mean |a - b| over the pixels and channels of two pictures.
+double meanDifference(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto first = readPng(a, 1 << 20), second = readPng(b, 1 << 20);
+  if (!first || !second || first->pixels.size() != second->pixels.size()) {
+    ADD_FAILURE() << a << " and " << b;
+    return 0;
+  }
+  double sum = 0;
+  for (size_t i = 0; i < first->pixels.size(); ++i) sum += std::abs(int(first->pixels[i]) - int(second->pixels[i]));
+  return sum / static_cast<double>(first->pixels.size());
+}
+
+TEST_F(EvaluateProgram, APathHasErrorAndFlickerOfEachFrame) {
+  writeCameras(R"({"name":"a","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40,"time":0},
+                  {"name":"b","position":[139,213,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40,"time":3})");
+  ASSERT_EQ(run("sphere.far --path cameras.json --path orbit --path-frames 2 --renderers full-16spp --size 120x80 "
+                "--reference-samples 16 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json json = report();
+  EXPECT_EQ(json.at("entries").size(), 0u);
+  ASSERT_EQ(json.at("paths").size(), 2u);
+  const Json& drive = json.at("paths")[0];
+  EXPECT_EQ(drive.at("name"), "cameras");
+  EXPECT_EQ(drive.at("frames"), 2);
+  ASSERT_EQ(drive.at("renderers").size(), 3u);
+  const std::string stem = drive.at("stem");
+  for (const Json& run : drive.at("renderers")) {
+    const std::string name = "report/" + stem + "." + run.at("renderer").get<std::string>();
+    const Json& frames = run.at("frames");
+    EXPECT_NEAR(frames.at("ownChange")[1], meanDifference(path(name + ".worst-before.png"), path(name + ".worst.png")),
+                0.3)
+        << "pictures are rounded";
+    EXPECT_GT(frames.at("ownChange")[1], 0.5);
+    EXPECT_EQ(frames.at("flicker")[0], 0);
+    EXPECT_EQ(run.at("summary").at("switchFrames"), 0) << "all frames draw every triangle";
+    EXPECT_GT(frames.at("bytesRead")[0], 0);
+    EXPECT_EQ(frames.at("bytesRead")[1], 0) << "pages stay";
+  }
+  const auto flicker = [&](size_t run) {
+    return drive.at("renderers")[run].at("summary").at("meanFlicker").get<double>();
+  };
+  EXPECT_LT(flicker(1), flicker(0));
+  EXPECT_LT(flicker(2), flicker(1));
+  EXPECT_LT(flicker(2), drive.at("renderers")[2].at("summary").at("referenceChange"));
+  const std::string lines = textOf(path("report/paths.csv"));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 2 * 2 * 3);
+  EXPECT_EQ(Json::parse(textOf(path("report/" + stem + ".cameras.json"))).at("cameras").size(), 2u);
+}
+
+TEST_F(EvaluateProgram, APathThatCannotBeIsAnErrorBeforeAnyWork) {
+  writeCameras(R"({"name":"a","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40})");
+  EXPECT_EQ(run("sphere.far --path cameras.json -o report"), 2);
+  EXPECT_NE(textOf(path("stderr")).find("cameras.json: a path needs two cameras"), std::string::npos);
+  EXPECT_EQ(run("sphere.far --path absent.json -o report"), 1);
+  EXPECT_EQ(run("sphere.far --path orbit --path-frames 1 -o report"), 2);
+  EXPECT_FALSE(std::filesystem::exists(path("report")));
 }
 
 TEST_F(EvaluateProgram, AnInterruptKeepsTheCamerasThatWereFinished) {

@@ -18,7 +18,7 @@ struct Known {
 };
 constexpr std::array kKnown = {
     Known{kBaselineRenderer, "geometry", RenderMode::full, 1, ImpostorKind::depthCorrected, true},
-    Known{"full-4spp", "geometry", RenderMode::full, 4, ImpostorKind::depthCorrected, true},
+    Known{kSupersampledRenderer, "geometry", RenderMode::full, 4, ImpostorKind::depthCorrected, true},
     Known{"full-16spp", "geometry", RenderMode::full, 16, ImpostorKind::depthCorrected, false},
     Known{"triangles", "geometry", RenderMode::triangles, 4, ImpostorKind::depthCorrected, false},
     Known{"lod", "geometry", RenderMode::meshes, 4, ImpostorKind::depthCorrected, false},

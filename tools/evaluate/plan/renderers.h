@@ -17,7 +17,8 @@ struct RendererPlan {
 };
 
 inline constexpr const char* kBaselineRenderer = "full-1spp";  // what ratios are relative to
-inline constexpr double kLodPixels = 1;                        // as viewers of mesh hierarchies have it
+inline constexpr const char* kSupersampledRenderer = "full-4spp";
+inline constexpr double kLodPixels = 1;  // as viewers of mesh hierarchies have it
 inline constexpr const char* kAllRenderers = "full-1spp,full-4spp,full-16spp,triangles,lod,flat,A,B,auto,auto-B";
 
 // Whether what a mode draws depends on the setting.

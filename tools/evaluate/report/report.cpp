@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "shaders/shared/shading.h"
+#include "tools/evaluate/report/fields.h"
 #include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/summary.h"
 
@@ -15,48 +16,6 @@ namespace farcell {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* modeName(RenderMode mode) {
-  switch (mode) {
-    case RenderMode::automatic:
-      return "auto";
-    case RenderMode::impostors:
-      return "impostors";
-    case RenderMode::meshes:
-      return "meshes";
-    case RenderMode::triangles:
-      return "triangles";
-    case RenderMode::full:
-      return "full";
-  }
-  return "";
-}
-
-const char* kindName(ImpostorKind kind) {
-  switch (kind) {
-    case ImpostorKind::flat:
-      return "flat";
-    case ImpostorKind::depthCorrected:
-      return "A";
-    case ImpostorKind::blended:
-      return "B";
-  }
-  return "";
-}
-
-Json settingsJson(const RenderSettings& settings) {
-  Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
-  if (usesTexelPixels(settings.selection.mode)) {
-    json["kind"] = kindName(settings.kind);
-    json["texelPixels"] = settings.selection.texelPixels;
-  }
-  if (settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::meshes)
-    json["meshPixels"] = settings.selection.meshPixels;
-  if (usesTriangleBudget(settings.selection.mode)) json["triangleBudget"] = settings.selection.triangleBudget;
-  return json;
-}
-
-Json optionalJson(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json entryJson(const Entry& entry) {
   const Metrics& m = entry.metrics;
@@ -150,56 +109,11 @@ Json factsJson(const ReportFacts& facts) {
           {"gl", facts.glRenderer}};
 }
 
-// RFC 4180.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-// Objects become one column a member: frameMs.median.
-void appendFields(const Json& json, const std::string& prefix, bool names, std::vector<std::string>& fields) {
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_object())
-      appendFields(value, prefix + key + ".", names, fields);
-    else if (names)
-      fields.push_back(csvField(prefix + key));
-    else
-      fields.push_back(value.is_null() ? "" : value.is_string() ? csvField(value.get<std::string>()) : value.dump());
-  }
-}
-
-// Settings differ in their members from renderer to renderer: one column of text keeps the lines equal.
-Json flatSettings(Json entry) {
-  std::string text;
-  for (const auto& [key, value] : entry["settings"].items())
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", key,
-                        value.is_string() ? value.get<std::string>() : value.dump());
-  entry["settings"] = text;
-  return entry;
-}
-
-std::string csvLine(const Json& json, bool names) {
-  std::vector<std::string> fields;
-  appendFields(json, "", names, fields);
-  return fmt::format("{}\n", fmt::join(fields, ","));
-}
-
 Json summaryLineJson(const RendererSummary& summary) {
   Json json = {{"renderer", summary.renderer}};
   json.update(summaryJson(summary));
   return json;
 }
-
-// A camera's name goes to a terminal: no control characters.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return text;
-}
-
-std::string optionalText(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
 
 // Of the column of renderers.
 size_t nameWidth(const std::vector<Entry>& entries) {
@@ -239,8 +153,8 @@ Json reportJson(const ReportFacts& facts, const std::vector<Entry>& entries) {
 }
 
 std::string reportCsv(const std::vector<Entry>& entries) {
-  std::string text = csvLine(flatSettings(entryJson({})), true);
-  for (const Entry& entry : entries) text += csvLine(flatSettings(entryJson(entry)), false);
+  std::string text = csvLine(entryJson({}), true);
+  for (const Entry& entry : entries) text += csvLine(entryJson(entry), false);
   return text;
 }
 
