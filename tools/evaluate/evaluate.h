@@ -1,9 +1,9 @@
 // The run behind `farcell evaluate`:
-// 1. open pack, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
+// 1. open packs, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
 // 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
 //    (metrics/) and time it;
 // 3. per camera path: the same frame by frame, with what changes between frames (path/);
-// 4. write report.json, report.csv, summary.csv, paths.csv, index.html, cameras.json and pictures (report/).
+// 4. write report.json, report.csv, summary.csv, equal.csv, paths.csv, index.html, cameras.json and pictures (report/).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ namespace farcell {
 
 struct EvaluateOptions {
   std::filesystem::path pack;
-  std::filesystem::path cameras;  // a camera file; empty: autoCameras
+  std::vector<std::string> against;  // other packs of the same model, see parseOtherPacks()
+  std::filesystem::path cameras;     // a camera file; empty: autoCameras
   int autoCameras = 0;
   std::vector<std::string> paths;             // path files, or names of generated paths
   int pathFrames = 60;                        // of each path

@@ -13,6 +13,8 @@ namespace {
 // One renderer on its way, with what it needs of the frame before.
 struct Walker {
   RendererPlan plan;
+  const PackFile& pack;
+  Viewpoints viewpoints;
   Renderer renderer;
   Cut cut;
   std::vector<float> picture;  // composited; empty before the first frame
@@ -26,19 +28,19 @@ struct Truth {
 };
 
 struct Walk {
-  const PackFile& pack;
-  const Viewpoints& viewpoints;
   const PathSettings& settings;
   const std::string& stem;
   std::vector<Walker> walkers;
   Truth truth;
 };
 
-Result<std::vector<Walker>> makeWalkers(GlContext& context, const PackFile& pack, const PathSettings& settings) {
+Result<std::vector<Walker>> makeWalkers(GlContext& context, const Packs& packs, const PathSettings& settings) {
   std::vector<Walker> walkers;
   for (const RendererPlan& plan : settings.plans) {
+    const PackFile& pack = packs.of(plan);
+    FARCELL_ASSIGN(Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
     FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, settings.residentBytes));
-    walkers.push_back({plan, std::move(renderer), {}, {}});
+    walkers.push_back({plan, pack, std::move(viewpoints), std::move(renderer), {}, {}});
   }
   return walkers;
 }
@@ -72,11 +74,11 @@ Result<PathFrame> step(Walk& walk, Walker& walker, const Camera& camera) {
   PathFrame frame;
   FARCELL_ASSIGN(std::vector<float> picture, drawFrame(walker, camera, walk.settings.background, frame));
   frame.paperError = paperError(walk.truth.image, walk.truth.now, picture);
-  Cut cut =
-      selectCut(walk.pack.directory(), walk.viewpoints, camera, settings.width, settings.height, settings.selection);
+  Cut cut = selectCut(walker.pack.directory(), walker.viewpoints, camera, settings.width, settings.height,
+                      settings.selection);
   if (!walker.picture.empty()) {
     FARCELL_TRY(compareWithBefore(walk, walker, picture, frame));
-    const Switches switches = countSwitches(walk.pack.directory(), walker.cut, cut, settings.kind);
+    const Switches switches = countSwitches(walker.pack.directory(), walker.cut, cut, settings.kind);
     frame.viewSwitches = switches.views;
     frame.levelSwitches = switches.levels;
   }
@@ -88,11 +90,10 @@ Result<PathFrame> step(Walk& walk, Walker& walker, const Camera& camera) {
 
 }  // namespace
 
-Result<> measurePath(GlContext& context, const PackFile& pack, const std::vector<Camera>& frames,
+Result<> measurePath(GlContext& context, const Packs& packs, const std::vector<Camera>& frames,
                      const PathSettings& settings, PathEntry& entry) {
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
-  FARCELL_ASSIGN(std::vector<Walker> walkers, makeWalkers(context, pack, settings));
-  Walk walk{pack, viewpoints, settings, entry.stem, std::move(walkers), {}};
+  FARCELL_ASSIGN(std::vector<Walker> walkers, makeWalkers(context, packs, settings));
+  Walk walk{settings, entry.stem, std::move(walkers), {}};
   for (const Walker& walker : walk.walkers) entry.runs.push_back({walker.plan, {}});
   for (const Camera& camera : frames) {
     FARCELL_ASSIGN(walk.truth.image, settings.trace(camera));

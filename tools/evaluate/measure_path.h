@@ -7,6 +7,7 @@
 
 #include "runtime/renderer.h"
 #include "tools/evaluate/metrics/images.h"
+#include "tools/evaluate/packs.h"
 #include "tools/evaluate/report/path_entry.h"
 
 namespace farcell {
@@ -23,7 +24,7 @@ struct PathSettings {
 // Goes through the frames once; of pictures, those of two frames are in memory. Each renderer keeps its pages from
 // frame to frame. Of each renderer's frame of the worst flicker the pictures are written (pictures.h). `entry`, with
 // name and stem, gets the frames that all renderers have drawn, also when a later one fails.
-Result<> measurePath(GlContext& context, const PackFile& pack, const std::vector<Camera>& frames,
+Result<> measurePath(GlContext& context, const Packs& packs, const std::vector<Camera>& frames,
                      const PathSettings& settings, PathEntry& entry);
 
 }  // namespace farcell

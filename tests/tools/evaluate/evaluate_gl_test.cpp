@@ -162,6 +162,58 @@ TEST_F(EvaluateProgram, ACameraThatSeesNothingIsReportedButDoesNotCount) {
   EXPECT_EQ(json.at("summary").at("full-4spp").at("cameras"), 1);
 }
 
+TEST_F(EvaluateProgram, RenderersOfAnotherPackOfTheSameModelAreInTheSameRun) {
+  const testing::TestModel model = testing::sphereModel({100, 200, 300}, 10, 4);
+  testing::writeTestPack(model, path("root.far"), PackFile::open(path("sphere.far"))->directory().sourceHash, true);
+  ASSERT_EQ(run("sphere.far --against root=root.far --cameras cameras.json --renderers auto,triangles@root,lod-as-auto "
+                "--size 60x40 --frames 1 --reference-samples 4 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json json = report();
+  ASSERT_EQ(json.at("entries").size(), 2u * 5);
+  const Json& other = json.at("entries")[4];
+  EXPECT_EQ(other.at("renderer"), "triangles@root");
+  EXPECT_EQ(other.at("paperError"), json.at("entries")[1].at("paperError")) << "the same triangles at four samples";
+  EXPECT_EQ(json.at("against").at("root").at("name"), "root.far");
+  EXPECT_NEAR(json.at("against").at("root").at("bytesToPack").get<double>(),
+              static_cast<double>(std::filesystem::file_size(path("root.far"))) /
+                  static_cast<double>(std::filesystem::file_size(path("sphere.far"))),
+              1e-9);
+  const Json& lod = json.at("entries")[3];
+  EXPECT_EQ(lod.at("renderer"), "lod-as-auto");
+  EXPECT_GE(lod.at("settings").at("meshPixels"), 0.01);
+  EXPECT_LE(lod.at("settings").at("meshPixels"), 100);
+}
+
+TEST_F(EvaluateProgram, AnOctahedralImpostorIsAmongTheRenderersOfCameras) {
+  ASSERT_EQ(run("sphere.far --cameras cameras.json --renderers auto,octahedral --size 60x40 --frames 1 "
+                "--reference-samples 4 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json entry = report().at("entries")[3];
+  EXPECT_EQ(entry.at("renderer"), "octahedral");
+  EXPECT_GE(entry.at("settings").at("frameEdge"), 16);
+  EXPECT_EQ(entry.at("impostors"), 1);
+  EXPECT_GT(entry.at("impostorShare"), 0.99);
+  EXPECT_GT(entry.at("psnr"), 15);
+}
+
+TEST_F(EvaluateProgram, APackOfAnotherModelIsRefused) {
+  testing::writeTestPack(testing::sphereModel({100, 200, 300}, 10, 4), path("other.far"), 12345);
+  const std::string rest = " --cameras cameras.json --size 60x40 -o report";
+  EXPECT_EQ(run("sphere.far --against x=other.far" + rest), 2);
+  const std::string message = textOf(path("stderr"));
+  EXPECT_NE(message.find("other.far: not a pack of the same model as sphere.far"), std::string::npos) << message;
+  EXPECT_NE(message.find("0000000000003039"), std::string::npos) << "both hashes";
+  for (const char* wrong : {"other.far", "=other.far", "a,b=other.far", "x="}) {
+    EXPECT_EQ(run(std::string("sphere.far --against '") + wrong + "'" + rest), 2) << wrong;
+    EXPECT_NE(textOf(path("stderr")).find("expected NAME=PACK"), std::string::npos) << wrong;
+  }
+  EXPECT_EQ(run("sphere.far --against x=sphere.far --against x=sphere.far" + rest), 2);
+  EXPECT_EQ(run("sphere.far --against x=absent.far" + rest), 1);
+  EXPECT_FALSE(std::filesystem::exists(path("report")));
+}
+
 // Mean |a - b| over the pixels and channels of two pictures.
 double meanDifference(const std::filesystem::path& a, const std::filesystem::path& b) {
   const auto first = readPng(a, 1 << 20), second = readPng(b, 1 << 20);

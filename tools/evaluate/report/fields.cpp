@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "tools/evaluate/plan/renderers.h"
-
 namespace farcell {
 namespace {
 
@@ -67,14 +65,15 @@ std::string settingsText(const Json& settings) {
 
 }  // namespace
 
-Json settingsJson(const RenderSettings& settings) {
+Json settingsJson(const RendererPlan& plan) {
+  if (plan.kind == kOctahedral) return {{"mode", kOctahedral}, {"frameEdge", plan.frameEdge}};
+  const RenderSettings& settings = plan.settings;
   Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
   if (usesTexelPixels(settings.selection.mode)) {
     json["kind"] = kindName(settings.kind);
     json["texelPixels"] = settings.selection.texelPixels;
   }
-  if (settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::meshes)
-    json["meshPixels"] = settings.selection.meshPixels;
+  if (usesMeshPixels(settings.selection.mode)) json["meshPixels"] = settings.selection.meshPixels;
   if (usesTriangleBudget(settings.selection.mode)) json["triangleBudget"] = settings.selection.triangleBudget;
   return json;
 }

@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
-#include "runtime/renderer.h"
+#include "tools/evaluate/plan/renderers.h"
 
 namespace farcell {
 
-// The settings that the mode uses.
-nlohmann::ordered_json settingsJson(const RenderSettings& settings);
+// The settings that the renderer uses.
+nlohmann::ordered_json settingsJson(const RendererPlan& plan);
 nlohmann::ordered_json optionalJson(const std::optional<double>& value);  // null for nothing
 
 // The members of an object as a line of CSV (RFC 4180), objects in it one column a member: frameMs.median. Its member

@@ -28,9 +28,12 @@ Json frameJson(const PathFrame& frame) {
 // By column: one array a figure.
 Json framesJson(const std::vector<PathFrame>& frames) {
   Json columns = Json::object();
-  for (const auto& [key, value] : frameJson({}).items()) columns[key] = Json::array();
-  for (const PathFrame& frame : frames)
-    for (const auto& [key, value] : frameJson(frame).items()) columns[key].push_back(value);
+  const Json none = frameJson({});
+  for (const auto& [key, value] : none.items()) columns[key] = Json::array();
+  for (const PathFrame& frame : frames) {
+    const Json figures = frameJson(frame);
+    for (const auto& [key, value] : figures.items()) columns[key].push_back(value);
+  }
   return columns;
 }
 
@@ -65,7 +68,8 @@ Json pathJson(const PathEntry& path) {
     const PathRun& run = path.runs[i];
     json["renderers"].push_back({{"renderer", run.renderer.name},
                                  {"class", run.renderer.rendererClass},
-                                 {"settings", settingsJson(run.renderer.settings)},
+                                 {"kind", run.renderer.kind},
+                                 {"settings", settingsJson(run.renderer)},
                                  {"summary", summaryJson(summaries[i])},
                                  {"frames", framesJson(run.frames)}});
   }

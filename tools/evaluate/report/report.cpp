@@ -23,7 +23,8 @@ Json entryJson(const Entry& entry) {
           {"stem", entry.stem},
           {"renderer", entry.renderer.name},
           {"class", entry.renderer.rendererClass},
-          {"settings", settingsJson(entry.renderer.settings)},
+          {"kind", entry.renderer.kind},
+          {"settings", settingsJson(entry.renderer)},
           {"paperErrorSum", m.paperErrorSum},
           {"paperError", m.paperError},
           {"ratioToFull1spp", optionalJson(entry.ratioToFull1spp)},
@@ -59,6 +60,7 @@ Json ratiosJson(const RatioSummary& ratios) {
 
 Json summaryJson(const RendererSummary& summary) {
   return {{"class", summary.rendererClass},
+          {"kind", summary.kind},
           {"ratioToFull1spp", optionalJson(summary.all.ratioToFull1spp)},
           {"worstRatio", optionalJson(summary.all.worstRatio)},
           {"cameras", summary.all.cameras},
@@ -66,9 +68,13 @@ Json summaryJson(const RendererSummary& summary) {
           {"elsewhere", ratiosJson(summary.elsewhere)},
           {"medianFrameMs", summary.medianFrameMs},
           {"medianTriangles", summary.medianTriangles},
+          {"medianBytesRead", summary.medianBytesRead},
           {"worstHoleRate", summary.worstHoleRate},
           {"meanFlip", summary.meanFlip},
-          {"onParetoFront", summary.onParetoFront}};
+          {"onParetoFront", summary.onParetoFront},
+          {"onKindFront", summary.onKindFront},
+          {"onBytesFront", summary.onBytesFront},
+          {"onKindBytesFront", summary.onKindBytesFront}};
 }
 
 std::string processorName() {
@@ -78,24 +84,35 @@ std::string processorName() {
   return "unknown";
 }
 
-Json packJson(const ReportFacts& facts) {
-  const BuildSettings& settings = facts.directory->model.settings;
-  return {{"name", facts.packName},
-          {"bytes", facts.packBytes},
-          {"source", facts.directory->sourceName},
-          {"sourceHash", fmt::format("{:016x}", facts.directory->sourceHash)},
-          {"triangles", facts.directory->report.inputTriangles},
+Json packJson(const std::string& fileName, uint64_t bytes, const Directory& directory) {
+  const BuildSettings& settings = directory.model.settings;
+  return {{"name", fileName},
+          {"bytes", bytes},
+          {"source", directory.sourceName},
+          {"sourceHash", fmt::format("{:016x}", directory.sourceHash)},
+          {"triangles", directory.report.inputTriangles},
           {"views", settings.views},
           {"imageSize", settings.imageSize},
           {"samples", settings.samples},
           {"leafTriangles", settings.leafTriangles}};
 }
 
+// By name; with their bytes over those of the pack that is evaluated.
+Json againstJson(const ReportFacts& facts) {
+  Json json = Json::object();
+  for (const OtherPackFacts& other : facts.against) {
+    json[other.name] = packJson(other.fileName, other.bytes, *other.directory);
+    json[other.name]["bytesToPack"] = static_cast<double>(other.bytes) / static_cast<double>(facts.packBytes);
+  }
+  return json;
+}
+
 Json factsJson(const ReportFacts& facts) {
   const glm::vec3 sun = sunDirection(facts.directory->model.settings.up);
   return {{"version", FARCELL_VERSION},
           {"complete", facts.complete},
-          {"pack", packJson(facts)},
+          {"pack", packJson(facts.packName, facts.packBytes, *facts.directory)},
+          {"against", againstJson(facts)},
           {"size", {facts.width, facts.height}},
           {"background", facts.background},
           {"light", {{"sun", {sun.x, sun.y, sun.z}}, {"ambient", shared::kAmbient}, {"diffuse", shared::kDiffuse}}},

@@ -7,6 +7,7 @@
 
 #include "tests/support/chromium.h"
 #include "tests/support/evaluate_directory.h"
+#include "tools/evaluate/report/equal_report.h"
 #include "tools/evaluate/report/names.h"
 #include "tools/evaluate/report/path_report.h"
 #include "tools/evaluate/report/report.h"
@@ -35,6 +36,7 @@ std::vector<Entry> entriesOf(const std::vector<std::string>& names) {
       entry.renderer = plan;
       entry.metrics.paperError = 5 + static_cast<double>(entries.size() * 37 % 101);
       entry.metrics.flip = 0.001 * number;
+      entry.metrics.foregroundPixels = 10;
       entry.metrics.psnr = 20 + number / 10;
       entry.frame = frameTimes({1 + number});
       entry.cpuMs = 2 + number;
@@ -65,7 +67,11 @@ class Page : public ::testing::Test {
                               const std::vector<PathEntry>& paths = {}) const {
     nlohmann::ordered_json json = reportJson(facts_, entries);
     json["paths"] = pathsJson(paths);
-    std::string page = reportPage(json);
+    return write(json, script);
+  }
+
+  std::filesystem::path write(const nlohmann::ordered_json& report, const std::string& script) const {
+    std::string page = reportPage(report);
     if (!script.empty()) page.insert(page.rfind("</body>"), "<p id=result></p><script>" + script + "</script>");
     std::ofstream(scratch_.path() / "index.html", std::ios::binary) << page;
     return scratch_.path() / "index.html";
@@ -121,6 +127,31 @@ TEST_F(Page, PlotsEveryRendererAndTheFrontWhateverTheNames) {
   EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
   EXPECT_EQ(dom.find("<title>owned"), std::string::npos);
   EXPECT_NE(dom.find("<title>&lt;/script&gt;"), std::string::npos);
+}
+
+TEST_F(Page, PlotsTheFrontOfBytesAndComparesAtEqualTime) {
+  std::vector<Entry> entries = entriesOf({"one", "two"});
+  nlohmann::ordered_json json = reportJson(facts_, entries);
+  json["equal"] = equalJson(equalTable(entries));
+  const std::string script = R"js(
+    const notes = [], all = (selector) => [...document.querySelectorAll(selector)];
+    const chooser = document.querySelector("#front select");
+    notes.push(all("#front .dot.best").length);
+    chooser.value = "bytes";
+    chooser.dispatchEvent(new Event("change"));
+    notes.push(all("#front .dot.best").length, all("#equal-summary tbody tr").length, all("#equal-cameras tbody tr").length);
+    document.getElementById("result").textContent = notes.join(" | ");
+  )js";
+  size_t time = 0, bytes = 0;
+  for (const RendererSummary& summary : summarise(entries)) {
+    time += summary.onParetoFront ? 1 : 0;
+    bytes += summary.onBytesFront ? 1 : 0;
+  }
+  const std::string dom = chromium_.domOf(write(json, script));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  const std::string expected = fmt::format("<p id=\"result\">{} | {} | 9 | 18</p>", time, bytes);
+  EXPECT_NE(dom.find(expected), std::string::npos)
+      << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 99);
 }
 
 TEST_F(Page, SaysWhenNoRendererHasARatio) {
@@ -188,7 +219,8 @@ PathEntry pathOf(const std::string& name, size_t frames) {
   PathEntry path;
   path.name = name;
   path.stem = fileStems({name}).front();
-  for (const RendererPlan& plan : planRenderers("auto", 640, 360, {}).value()) {
+  const auto plans = planRenderers("auto", 640, 360, {});
+  for (const RendererPlan& plan : plans.value()) {
     path.runs.push_back({plan, {}});
     for (size_t i = 0; i < frames; ++i) {
       PathFrame frame;

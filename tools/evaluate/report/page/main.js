@@ -68,9 +68,12 @@ for (const section of document.querySelectorAll("main > section"))
 if (cameras.length) {
   makeSummary();
   makeFront();
+  makeEqual();
   makePlots();
   makePictures();
   makeEntries();
 }
 if (paths.length) makePaths();
+for (const link of document.querySelectorAll('nav > a[href^="#"]'))
+  link.hidden = byId(link.hash.slice(1)).parentNode.hidden;
 makeSettings();

@@ -75,13 +75,14 @@ const paths = report.paths ?? [];
 const cameras = [...new Map(entries.map((entry) => [entry.stem, { stem: entry.stem, name: entry.camera }])).values()];
 
 // A class has a mark of its own and a family of colours (style.css), in order. The variants of a sweep, as
-// "auto@texel-pixels=0.5@triangle-budget=2M", share the colour of their renderer; their values tell them apart.
+// "auto@texel-pixels=0.5@triangle-budget=2M", share the colour of their kind; their values tell them apart.
 const marks = { geometry: "circle", impostor: "square", mixed: "diamond" };
 const renderers = [];
 for (const entry of [...entries, ...paths.flatMap((path) => path.renderers)]) {
   if (renderers.some((renderer) => renderer.name === entry.renderer)) continue;
   const family = marks[entry.class] ? entry.class : "mixed";
-  const [base, ...swept] = entry.renderer.split("@");
+  const base = entry.kind && entry.renderer.startsWith(entry.kind) ? entry.kind : entry.renderer;
+  const swept = entry.renderer.slice(base.length).split("@").filter(Boolean);
   const others = new Set(renderers.filter((renderer) => renderer.family === family).map((renderer) => renderer.base));
   const place = (others.has(base) ? [...others].indexOf(base) : others.size) % 5;
   renderers.push({ name: entry.renderer, base, family, mark: marks[family], colour: `var(--${family}-${place})`,
