@@ -95,7 +95,7 @@ dependencies() {
   heavy libpng '[<"]png\.h' '^tools/image/png\.cpp'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
-  heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
+  heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tools/evaluate/baselines|tests/runtime|tests/bench)/'
   heavy nlohmann '[<"]nlohmann/' '^(preprocess/(read/(scene|gltf)|choose)|runtime/camera|tools|tests)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'
   heavy GoogleTest '[<"](gtest|gmock)/' '^tests/'
