@@ -50,8 +50,10 @@ layers() {
       add("preprocess/encode/", "preprocess", 14); add("preprocess/measure/", "preprocess", 15)
       add("preprocess/build/", "preprocess", 16)
       add("runtime/gl/", "runtime", 9)
-      add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
-      add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
+      add("runtime/camera/", "runtime", 10); add("runtime/cost/", "runtime", 10)
+      add("runtime/selection/", "runtime", 11)
+      add("runtime/draw/", "runtime", 12); add("runtime/occlusion/", "runtime", 12)
+      add("runtime/", "runtime", 13); add("runtime/calibration/", "runtime", 14)
       # What several programs share (tools/reference < cli, image, report < options) lies below the programs, which never
       # see each other.
       add("tools/reference/", "top", 19); add("tools/cli/", "top", 20); add("tools/image/", "top", 20)
