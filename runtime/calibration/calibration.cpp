@@ -16,7 +16,7 @@ namespace farcell {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180;
-constexpr int kFrames = 2;  // of which the faster counts: what else runs only adds
+constexpr int kFrames = 2;               // of which the faster counts: what else runs only adds
 constexpr double kDistances[] = {2, 5};  // from the middle, radii
 constexpr uint64_t kResidentBytes = uint64_t{64} << 20;
 
@@ -32,6 +32,7 @@ RenderSettings settingsOf(RenderMode mode, ImpostorKind kind, int samples) {
   settings.samplesPerPixel = samples;
   settings.kind = kind;
   settings.selection.mode = mode;
+  settings.occlusion = false;
   return settings;
 }
 
