@@ -11,6 +11,7 @@
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/frame_painter.h"
 #include "runtime/draw/frame_target.h"
+#include "runtime/occlusion/occlusion.h"
 
 namespace farcell {
 namespace {
@@ -31,6 +32,18 @@ glm::dvec2 jitterOf(int frame, int frames) {
   return frames > 1 ? glm::dvec2(jitter[0], jitter[1]) : glm::dvec2(0);
 }
 
+// Where the samples of a pixel lie, y up.
+std::vector<glm::vec2> samplePositions() {
+  const FrameTarget target(1, 1, kMultisamples, false);
+  target.begin();
+  GLint count = 0;
+  glGetIntegerv(GL_SAMPLES, &count);
+  std::vector<glm::vec2> positions(static_cast<size_t>(std::max(count, 0)));
+  for (size_t i = 0; i < positions.size(); ++i)
+    glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), &positions[i].x);
+  return positions;
+}
+
 class Stopwatch {
  public:
   double wallMs() const {
@@ -43,10 +56,30 @@ class Stopwatch {
   double startCpuSeconds_ = processCpuSeconds();
 };
 
+SelectionSettings selectionOf(const RenderSettings& settings) {
+  SelectionSettings selection = settings.selection;
+  selection.costs = settings.costs.of(static_cast<size_t>(settings.kind), settings.samplesPerPixel);
+  selection.timeBudgetMs /= framesOf(settings);
+  return selection;
+}
+
 uint64_t countOf(const Cut& cut, Representation representation) {
   return static_cast<uint64_t>(std::count_if(cut.entries.begin(), cut.entries.end(), [&](const CutEntry& entry) {
     return entry.representation == representation;
   }));
+}
+
+void tell(const Cut& cut, const RenderSettings& settings, FrameStats& stats) {
+  stats.triangles = cut.triangles;
+  stats.meshes = countOf(cut, Representation::mesh);
+  stats.work = cut.work;
+  stats.expectedMs = framesOf(settings) * expectedMs(selectionOf(settings).costs, cut.work);
+  stats.hiddenCells = cut.hidden.cells;
+  stats.hiddenTriangles = static_cast<uint64_t>(cut.hidden.work.triangles);
+  stats.hiddenBytes = cut.hidden.storedBytes;
+  stats.hiddenMs = framesOf(settings) * expectedMs(selectionOf(settings).costs, cut.hidden.work);
+  stats.expectedLoss = cut.loss;
+  stats.lossBound = cut.lossBound;
 }
 
 void addTo(std::vector<uint16_t>& sums, const std::vector<uint8_t>& values) {
@@ -63,10 +96,12 @@ std::vector<uint8_t> meanOf(const std::vector<uint16_t>& sums, int count) {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const PackFile& packFile, Viewpoints set) : pack(packFile), viewpoints(std::move(set)) {}
+  Impl(const PackFile& packFile, Viewpoints set)
+      : pack(packFile), viewpoints(std::move(set)), multisamples(samplePositions()), occluders(packFile) {}
 
   Result<> checkSettings(const RenderSettings& settings) const;
   const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
+  Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx, FrameStats& stats);
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
                     glm::dvec2 jitterPx, FrameStats& stats);
   Result<FrameStats> drawOver(const Backdrop& backdrop, const Camera& camera, const RenderSettings& settings,
@@ -74,7 +109,10 @@ struct Renderer::Impl {
 
   const PackFile& pack;
   const Viewpoints viewpoints;
+  const std::vector<glm::vec2> multisamples;
   int maxSize = 0;
+  OccluderCache occluders;
+  OcclusionRest occlusionRest;
   std::optional<FramePainter> painter;
   std::optional<BackdropPainter> backdropPainter;  // made with the first picture that has a backdrop
   std::optional<FrameTarget> target;
@@ -119,6 +157,34 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
   return {};
 }
 
+Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx,
+                                  FrameStats& stats) {
+  const SelectionSettings selection = selectionOf(settings);
+  const Directory& directory = pack.directory();
+  const auto select = [&](const HiddenCells* hidden) {
+    return selectCut(directory, viewpoints, camera, settings.width, settings.height, selection, hidden);
+  };
+  Cut cut = select(nullptr);
+  const bool known = settings.samplesPerPixel == 1 || multisamples.size() == kMultisamples;
+  if (!settings.occlusion || selection.mode == RenderMode::full || !known) return cut;
+  if (settings.occlusionMustPay && occlusionRest.resting()) return cut;
+  const Stopwatch watch;
+  uint64_t read = 0;
+  const std::vector<glm::vec2> samples =
+      settings.samplesPerPixel == 1 ? std::vector<glm::vec2>{glm::vec2(0.5f)} : multisamples;
+  FARCELL_ASSIGN(
+      const Occlusion occlusion,
+      Occlusion::of(directory, camera, {settings.width, settings.height, samples, jitterPx}, cut, occluders, read));
+  Cut rest = select(&occlusion);
+  const bool pays = !settings.occlusionMustPay ||
+                    expectedMs(selection.costs, rest.hidden.work) > occlusion.expectedMs(cut.entries.size());
+  occlusionRest.tried(pays);
+  stats.occlusionMs += watch.wallMs();
+  stats.occlusionBytes += read;
+  stats.bytesRead += read;
+  return pays ? rest : cut;
+}
+
 // Passes of 16 samples are averaged as they come: each is mixed with the mean of those before.
 Result<FrameStats> Renderer::Impl::drawOver(const Backdrop& backdrop, const Camera& camera,
                                             const RenderSettings& settings, GLuint framebuffer) {
@@ -129,17 +195,17 @@ Result<FrameStats> Renderer::Impl::drawOver(const Backdrop& backdrop, const Came
   }
   const Stopwatch watch;
   FrameStats stats;
-  const Cut cut = selectCut(pack.directory(), viewpoints, camera, settings.width, settings.height, settings.selection);
+  Cut cut;
   const int frames = framesOf(settings);
   for (int i = 0; i < frames; ++i) {
+    FARCELL_ASSIGN(cut, cutOf(camera, settings, jitterOf(i, frames), stats));
     FARCELL_TRY(drawOnce(camera, settings, cut, false, jitterOf(i, frames), stats));
     backdropPainter->paint(*target, backdrop, camera, upVector(pack.directory().model.settings.up), 1.0 / (i + 1),
                            framebuffer);
   }
   stats.wallMs = watch.wallMs();
   stats.cpuMs = watch.cpuMs();
-  stats.triangles = cut.triangles;
-  stats.meshes = countOf(cut, Representation::mesh);
+  tell(cut, settings, stats);
   return stats;
 }
 
@@ -171,14 +237,12 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   const int frames = framesOf(settings);
   for (int i = 0; i < frames; ++i) {
     const Stopwatch watch;
-    const Cut cut = selectCut(impl_->pack.directory(), impl_->viewpoints, camera, settings.width, settings.height,
-                              settings.selection);
+    FARCELL_ASSIGN(const Cut cut, impl_->cutOf(camera, settings, jitterOf(i, frames), stats));
     FARCELL_TRY(impl_->drawOnce(camera, settings, cut, image != nullptr, jitterOf(i, frames), stats));
     glFinish();
     stats.wallMs += watch.wallMs();
     stats.cpuMs += watch.cpuMs();
-    stats.triangles = cut.triangles;
-    stats.meshes = countOf(cut, Representation::mesh);
+    tell(cut, settings, stats);
     if (image == nullptr) continue;
     addTo(colourSums, impl_->target->readColour());
     addTo(coverageSums, impl_->target->readCoverage());

@@ -42,12 +42,12 @@ struct CostModel {
 };
 
 // Of llvmpipe on two cores (tests/bench/cost/results.md).
-inline constexpr CostModel kDefaultCosts = {{{{0, 1.2e-4, 0, 0, 2e-5},
-                                              {0, 3.6e-4, 0, 0, 2e-5},
-                                              {0, 1.2e-4, 0, 0, 6e-5},
-                                              {0, 3.6e-4, 0, 0, 1.4e-4},
-                                              {0, 1.2e-4, 0, 0, 1e-4},
-                                              {0, 3.6e-4, 0, 0, 2.4e-4}}}};
+inline constexpr CostModel kDefaultCosts = {{{{5e-7, 1.2e-4, 2e-6, 0.02, 5e-6},
+                                              {5e-7, 4e-4, 5e-6, 0.1, 1.1e-5},
+                                              {5e-7, 1.2e-4, 2e-6, 0.15, 8e-5},
+                                              {5e-7, 4e-4, 5e-6, 0.6, 3e-4},
+                                              {5e-7, 1.2e-4, 2e-6, 0.2, 1.1e-4},
+                                              {5e-7, 4e-4, 5e-6, 0.7, 4e-4}}}};
 
 inline double expectedMs(const DrawCosts& costs, const FrameWork& work) {
   return costs.picturePixelMs * work.picturePixels + costs.triangleMs * work.triangles +

@@ -6,7 +6,7 @@
 namespace farcell {
 
 double impostorLoss(const CellRecord&, double texelPixels) {
-  return std::min(0.2 + 0.4 * std::max(texelPixels - 0.35, 0.0), 4.0);
+  return std::min(0.2 + std::clamp(texelPixels - 0.35, 0.0, 0.35) + 0.3 * std::max(texelPixels - 0.7, 0.0), 4.0);
 }
 
 double meshLoss(const CellRecord&, double errorPixels, double trianglesPerPixel) {

@@ -45,7 +45,7 @@ enum class Representation : uint8_t {
 
 struct SelectionSettings {
   RenderMode mode = RenderMode::automatic;
-  uint64_t triangleBudget = 500'000;
+  uint64_t triangleBudget = 1'000'000;
   double texelPixels = kTexelPixels;  // that an impostor's texel may measure
   double meshPixels = kMeshPixels;    // that a simplified mesh's geometric error may measure; 0: no simplified meshes
   // Of automatic pictures; 0: none. Where one of these binds, impostors may be coarser than texelPixels.

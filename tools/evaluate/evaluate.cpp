@@ -9,6 +9,7 @@
 
 #include "cache/base/interrupt.h"
 #include "cache/base/progress.h"
+#include "runtime/calibration/calibration.h"
 #include "tools/evaluate/baselines/octahedral.h"
 #include "tools/evaluate/measure_path.h"
 #include "tools/evaluate/measure_renderer.h"
@@ -268,6 +269,19 @@ ReportFacts reportFacts(const EvaluateOptions& options, const Packs& packs, cons
   return facts;
 }
 
+// Where a time budget is given, what drawing costs on this machine.
+Result<> applySettings(const EvaluateOptions& options, GlContext& context, std::vector<RendererPlan>& plans) {
+  CostModel costs = kDefaultCosts;
+  if (options.selection.timeBudgetMs > 0 || options.recalibrate) {
+    FARCELL_ASSIGN(costs, machineCosts(context, options.recalibrate));
+  }
+  for (RendererPlan& plan : plans) {
+    plan.settings.costs = costs;
+    plan.settings.occlusion = options.occlusion;
+  }
+  return {};
+}
+
 Result<> makeDirectory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -299,6 +313,7 @@ Result<> evaluate(const EvaluateOptions& options) {
   FARCELL_TRY(makeDirectory(options.output));
   FARCELL_TRY(writeTextFile(options.output / "cameras.json", cameraFileText(cameras)));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
+  FARCELL_TRY(applySettings(options, context, plans));
   Progress progress(options.progress);
   FARCELL_ASSIGN(std::optional<MeshReference> mesh, loadMesh(options, pack.directory(), progress));
 

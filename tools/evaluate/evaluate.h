@@ -34,6 +34,8 @@ struct EvaluateOptions {
   int height = 720;
   int referenceSamples = 64;
   SelectionSettings selection;  // level rule and triangle budget of every renderer
+  bool recalibrate = false;     // machine costs, for the time budget
+  bool occlusion = true;        // RenderSettings::occlusion of every renderer
   double lodPixels = 1;         // geometric error of the renderer lod
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;

@@ -13,9 +13,10 @@ namespace {
 // What the command line says as text.
 struct Words {
   std::string size = "1280x720";
-  std::string triangleBudget = "500k";
+  std::string triangleBudget = "1M";
   std::string background = "179,204,230";
   uint64_t residentMib = 1024;
+  std::string occlusion = "on";
 };
 
 Result<> run(EvaluateOptions& options, const Words& words) {
@@ -27,9 +28,35 @@ Result<> run(EvaluateOptions& options, const Words& words) {
   options.background =
       Colour{static_cast<float>(background[0]), static_cast<float>(background[1]), static_cast<float>(background[2])};
   options.residentBytes = words.residentMib << 20;
+  options.occlusion = words.occlusion == "on";
   if (options.cameras.empty() && options.autoCameras == 0 && options.paths.empty())
     return fail(ErrorKind::invalidArgument, "one of --cameras, --auto-cameras and --path is needed");
   return evaluate(options);
+}
+
+void addSelectionOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
+  app.add_option("--triangle-budget", words.triangleBudget, "triangles a frame of 'auto' may draw, e.g. 500k")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  app.add_option("--time-budget-ms", options.selection.timeBudgetMs,
+                 "of 'auto': the least error in a frame of so many milliseconds, by what drawing was measured to cost "
+                 "on this machine at the first such start; 0: no such budget")
+      ->type_name("MS")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_flag("--recalibrate", options.recalibrate, "measure again what drawing costs on this machine");
+  app.add_option("--occlusion", words.occlusion, "leave out what nearer triangles hide; off: draw it all the same")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  app.add_option("--texel-pixels", options.selection.texelPixels,
+                 "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
+      ->check(CLI::Range(kLeastTexelPixels, kMostTexelPixels))
+      ->capture_default_str();
+  app.add_option(
+         "--mesh-pixels", options.selection.meshPixels,
+         "a simplified mesh of 'auto' may be this far from the full surface on screen, pixels; 0: none is drawn")
+      ->check(CLI::Range(0.0, kMostMeshPixels))
+      ->capture_default_str();
 }
 
 void addSeen(CLI::App& app, EvaluateOptions& options) {
@@ -85,18 +112,7 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--reference-samples", options.referenceSamples, "samples per pixel of the reference")
       ->check(CLI::IsMember({"1", "4", "9", "16", "25", "36", "49", "64"}))
       ->capture_default_str();
-  app.add_option("--triangle-budget", words.triangleBudget, "triangles a frame of 'auto' may draw, e.g. 500k")
-      ->type_name("COUNT")
-      ->capture_default_str();
-  app.add_option("--texel-pixels", options.selection.texelPixels,
-                 "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
-      ->check(CLI::Range(kLeastTexelPixels, kMostTexelPixels))
-      ->capture_default_str();
-  app.add_option(
-         "--mesh-pixels", options.selection.meshPixels,
-         "a simplified mesh of 'auto' may be this far from the full surface on screen, pixels; 0: none is drawn")
-      ->check(CLI::Range(0.0, kMostMeshPixels))
-      ->capture_default_str();
+  addSelectionOptions(app, options, words);
   app.add_option("--lod-pixels", options.lodPixels, "the same of 'lod', which draws meshes only")
       ->check(CLI::Range(kLeastMeshPixels, kMostMeshPixels))
       ->capture_default_str();

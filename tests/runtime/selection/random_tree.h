@@ -24,6 +24,7 @@ class RandomTree {
       : random_(seed), mostTriangles_(mostTriangles) {
     directory.model.grid = grid;
     directory.model.settings.imageSize = 64;
+    directory.pages.push_back({.storedBytes = 1000});  // of every cell
     directory.cells.push_back(cell({}, kNone));
     for (uint32_t i = 0; i < directory.cells.size(); ++i)
       if (directory.cells[i].key.level < 4 && (i < 3 || chance(0.4))) split(i);
