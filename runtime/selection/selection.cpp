@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cache/schema/view_frame.h"
+#include "runtime/selection/losses.h"
 
 namespace farcell {
 namespace {
@@ -50,6 +51,7 @@ double distanceSteps(glm::dvec3 eye, const GridBox& box) {
   return glm::length(eye - nearest);
 }
 
+constexpr double kPixelPrice = kTrianglePrice * kTrianglesPerPixel;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // The budget is met by raising the price of a triangle: at this one none is worth it, whatever the size of a picture.
@@ -108,9 +110,11 @@ class Selector {
     Node& node = nodes_[place];
     node.end = static_cast<uint32_t>(nodes_.size());
     node.areaPixels = node.open ? areaBelow(place) : areaPixels(cell);
-    if (views && !node.open) node.viewLoss = node.areaPixels * impostorLoss(texelPixels(cell));
+    if (views && !node.open) node.viewLoss = node.areaPixels * (impostorLoss(cell, texelPixels(cell)) + kPixelPrice);
     if (mayBeMesh(cell) && !far)
-      node.meshLoss = settings_.mode == RenderMode::automatic ? node.areaPixels * meshLoss(meshPixels(cell)) : 0;
+      node.meshLoss = settings_.mode == RenderMode::automatic
+                          ? node.areaPixels * meshLoss(cell, texelPixels(cell), meshPixels(cell))
+                          : 0;
   }
 
   // A ray from the eye crosses each plane between the children at most once, away from the eye's side: an octant can
@@ -261,11 +265,6 @@ class Selector {
 };
 
 }  // namespace
-
-double impostorLoss(double texelPixels) {
-  return std::min(0.1 + 0.4 * texelPixels, 4.0) + kTrianglePrice * kTrianglesPerPixel;
-}
-double meshLoss(double errorPixels) { return 0.4 + 0.25 * errorPixels; }
 
 Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
               const SelectionSettings& settings) {

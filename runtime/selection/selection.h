@@ -24,13 +24,8 @@ namespace farcell {
 inline constexpr double kTexelPixels = 0.5;
 inline constexpr double kMeshPixels = 1;
 
-// Image errors to expect, in those of full geometry at one sample a pixel (tests/bench/cut/results.md): of an impostor
-// of kind A, with what its pixels cost, and of a mesh, at 4 samples, full or with a geometric error. By lengths on
-// screen, pixels.
-inline constexpr double kTrianglePrice = 0.01;     // image error x pixels that a triangle must save
+inline constexpr double kTrianglePrice = 0.01;     // image error x pixels that a triangle must save (losses.h)
 inline constexpr double kTrianglesPerPixel = 0.4;  // a pixel of an impostor takes as long as so many triangles
-double impostorLoss(double texelPixels);
-double meshLoss(double errorPixels);
 
 enum class RenderMode {
   automatic,  // impostors, meshes and triangles

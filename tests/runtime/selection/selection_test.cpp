@@ -256,8 +256,9 @@ class Oracle {
 
   // Of the representation, without the price of its triangles.
   double loss(uint32_t cell, Representation representation) const {
-    return areaPixels(cell) *
-           (representation == Representation::impostor ? impostorLoss(texelPixels(cell)) : meshLoss(meshPixels(cell)));
+    return areaPixels(cell) * (representation == Representation::impostor
+                                   ? impostorLoss(cell, texelPixels(cell)) + kTrianglePrice * kTrianglesPerPixel
+                                   : meshLoss(cell, texelPixels(cell), meshPixels(cell)));
   }
   double loss(const Cut& cut) const {
     double sum = 0;
