@@ -105,13 +105,15 @@ class Selector {
     const size_t place = nodes_.size();
     const bool views = mayHaveViews() && cell.firstViewPage != kNone;
     const bool far = views && farEnough(cell);
-    nodes_.push_back({.cell = index, .open = cell.childCount > 0 && !far});
+    const bool weighs = far && weighsOtherWays(cell);
+    nodes_.push_back({.cell = index, .open = cell.childCount > 0 && (!far || weighs)});
     if (nodes_[place].open) visitChildren(cell);
     Node& node = nodes_[place];
     node.end = static_cast<uint32_t>(nodes_.size());
     node.areaPixels = node.open ? areaBelow(place) : areaPixels(cell);
-    if (views && !node.open) node.viewLoss = node.areaPixels * (impostorLoss(cell, texelPixels(cell)) + kPixelPrice);
-    if (mayBeMesh(cell) && !far)
+    if (views && (far || !node.open))
+      node.viewLoss = node.areaPixels * (impostorLoss(cell, texelPixels(cell)) + kPixelPrice);
+    if (mayBeMesh(cell) && (!far || weighs))
       node.meshLoss = settings_.mode == RenderMode::automatic
                           ? node.areaPixels * meshLoss(cell, texelPixels(cell), meshPixels(cell))
                           : 0;
@@ -149,6 +151,13 @@ class Selector {
     const double halfSide = (cube.max.x - cube.min.x) * 0.5;
     if (glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) <= std::sqrt(3.0) * halfSide) return false;
     return texelPixels(cell) <= settings_.texelPixels;
+  }
+
+  // Of a cell that is far enough for its views: with measured errors its mesh and, until its texels are half as large
+  // as they may be, those below it are weighed against them.
+  bool weighsOtherWays(const CellRecord& cell) const {
+    return settings_.mode == RenderMode::automatic && cell.errors.knows(ErrorWay::depthCorrected) &&
+           texelPixels(cell) > settings_.texelPixels / 2;
   }
 
   // What a convex body of the box's size covers, mean over directions: a quarter of its surface (Cauchy).

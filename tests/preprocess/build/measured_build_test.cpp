@@ -47,7 +47,7 @@ class MeasuredBuild : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(directory_); }
 
   std::filesystem::path mesh() const { return directory_ / "ball.obj"; }
-  BuildResult build(Measure measure, int threads = 0) const {
+  BuildResult build(Measure measure, int threads = 0, uint64_t memoryBytes = kDefaultMemoryBytes) const {
     BuildOptions options;
     options.settings.leafTriangles = 200;
     options.settings.imageSize = 16;
@@ -55,6 +55,7 @@ class MeasuredBuild : public testing::Test {
     options.settings.views = 12;
     options.settings.measure = measure;
     options.threads = threads;
+    options.memoryBytes = memoryBytes;
     Progress silent(false);
     const std::filesystem::path file = mesh();
     Result<BuildResult> built = buildPack({&file, 1}, pack(), options, silent);
@@ -99,10 +100,10 @@ TEST_F(MeasuredBuild, tellsOfCellsThatWereNotMeasuredWhatMeasuringThemGives) {
   }
 }
 
-TEST_F(MeasuredBuild, hasTheSameBytesForAnyNumberOfThreads) {
+TEST_F(MeasuredBuild, hasTheSameBytesForAnyThreadsAndMemory) {
   build(Measure::sample, 1);
   const std::string one = bytes();
-  build(Measure::sample, 3);
+  build(Measure::sample, 3, kMinMemoryBytes);
   EXPECT_EQ(bytes(), one);
   build(Measure::off);
   EXPECT_NE(bytes(), one);

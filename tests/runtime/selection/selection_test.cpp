@@ -10,6 +10,7 @@
 #include <set>
 
 #include "cache/schema/view_frame.h"
+#include "runtime/selection/losses.h"
 
 namespace farcell {
 namespace {
@@ -73,6 +74,18 @@ class RandomTree {
       record.geometricError = chance(0.1) ? 0 : cellHalfSide(directory.model.grid, record.key) * std::exp2(-8 * part());
       record.firstGeometryPage = 0;
       record.geometryPageCount = 1;
+    }
+    if (record.triangles % 2 == 0) measure(record);
+  }
+  // Errors of any shape.
+  static void measure(CellRecord& record) {
+    for (size_t scale = 0; scale < kErrorScales; ++scale) {
+      const auto code = [&](uint64_t factor) {
+        return static_cast<uint8_t>(100 + (record.triangles * factor + 29 * scale) % 100);
+      };
+      if (record.meshTriangles > 0) record.errors.codes[static_cast<size_t>(ErrorWay::mesh)][scale] = code(31);
+      if (record.viewPageCount > 0)
+        record.errors.codes[static_cast<size_t>(ErrorWay::depthCorrected)][scale] = code(47);
     }
   }
   double part() { return std::uniform_real_distribution<double>(0, 1)(random_); }
@@ -256,9 +269,10 @@ class Oracle {
 
   // Of the representation, without the price of its triangles.
   double loss(uint32_t cell, Representation representation) const {
-    return areaPixels(cell) * (representation == Representation::impostor
-                                   ? impostorLoss(cell, texelPixels(cell)) + kTrianglePrice * kTrianglesPerPixel
-                                   : meshLoss(cell, texelPixels(cell), meshPixels(cell)));
+    return areaPixels(cell) *
+           (representation == Representation::impostor
+                ? impostorLoss(directory_.cells[cell], texelPixels(cell)) + kTrianglePrice * kTrianglesPerPixel
+                : meshLoss(directory_.cells[cell], texelPixels(cell), meshPixels(cell)));
   }
   double loss(const Cut& cut) const {
     double sum = 0;
@@ -289,7 +303,7 @@ class Oracle {
     }
     const bool views = record.firstViewPage != kNone;
     if (views && (isFar(cell) || record.childCount == 0)) offer(0, loss(cell, Representation::impostor));
-    if (views && isFar(cell)) return least;
+    if (views && isClosed(cell)) return least;
     if (record.childCount == 0 || meshAllowed(cell)) offer(record.meshTriangles, loss(cell, Representation::mesh));
     if (record.childCount == 0) return least;
     std::vector<double> below(most + 1, INFINITY);
@@ -316,6 +330,11 @@ class Oracle {
     return texelPixels(cell) <= settings_.texelPixels &&
            glm::length(camera_.position - cellCentre(grid, key)) > std::sqrt(3.0) * cellHalfSide(grid, key);
   }
+  // Drawn by its views, whatever else there is.
+  bool isClosed(uint32_t cell) const {
+    const bool measured = directory_.cells[cell].errors.knows(ErrorWay::depthCorrected);
+    return isFar(cell) && !(measured && texelPixels(cell) > settings_.texelPixels / 2);
+  }
   double pixels(uint32_t cell, double length) const {
     const Grid& grid = directory_.model.grid;
     const GridBox& box = directory_.cells[cell].content;
@@ -326,7 +345,7 @@ class Oracle {
   // A mean silhouette of the content, or of what is drawn below.
   double areaPixels(uint32_t cell) const {
     const CellRecord& record = directory_.cells[cell];
-    if (record.childCount > 0 && !(record.firstViewPage != kNone && isFar(cell))) {
+    if (record.childCount > 0 && !(record.firstViewPage != kNone && isClosed(cell))) {
       double sum = 0;
       for (uint32_t child = 0; child < record.childCount; ++child)
         if (visible_[record.firstChild + child]) sum += areaPixels(record.firstChild + child);
