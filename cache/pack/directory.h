@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cache/pack/error_table.h"
 #include "cache/schema/grid.h"
 #include "cache/schema/model.h"
 
@@ -28,18 +29,20 @@ struct PageRecord {
 
 struct CellRecord {
   CellKey key;
-  uint32_t parent = kNone;         // index into Directory::cells; kNone for the root
-  uint32_t firstChild = kNone;     // children lie one after the other in Morton order
-  uint32_t childCount = 0;         // 0: a leaf
-  GridBox content;                 // tight around the surface inside the cube
-  uint64_t triangles = 0;          // full-resolution triangles inside the cube (clipped pieces)
+  uint32_t parent = kNone;      // index into Directory::cells; kNone for the root
+  uint32_t firstChild = kNone;  // children lie one after the other in Morton order
+  uint32_t childCount = 0;      // 0: a leaf
+  GridBox content;              // tight around the surface inside the cube
+  uint64_t triangles = 0;       // full-resolution triangles inside the cube (clipped pieces)
   // The cell's mesh: the full triangles of a leaf, the simplified mesh of an inner cell, which may have none.
   uint64_t meshTriangles = 0;
-  double geometricError = 0;  // of the mesh: no point of it or of the full surface is farther from the other; model units
+  double geometricError =
+      0;  // of the mesh: no point of it or of the full surface is farther from the other; model units
   uint32_t firstGeometryPage = kNone;  // pages of the mesh, by part
   uint32_t geometryPageCount = 0;
   uint32_t firstViewPage = kNone;  // pages of views, by rising group; kNone when no views were kept
   uint32_t viewPageCount = 0;
+  ErrorTable errors;  // of its mesh and of its views, where they are there and were measured
 };
 
 // A mesh of more triangles than fit in one page is cut into parts: each but the last has exactly as many as these.

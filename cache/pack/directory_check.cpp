@@ -1,5 +1,6 @@
 #include "cache/pack/directory_check.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -93,6 +94,8 @@ class Checker {
     if (s.up > UpAxis::z) return wrongModel("an up axis of 0 to 2", fmt::format("{}", static_cast<uint32_t>(s.up)));
     if (!std::isfinite(s.metresPerUnit) || !(s.metresPerUnit > 0))
       return wrongModel("a unit above 0 metres", fmt::format("{}", s.metresPerUnit));
+    if (s.measure > Measure::all)
+      return wrongModel("measuring of 0 to 2", fmt::format("{}", static_cast<int>(s.measure)));
     if (s.simplifier > Simplifier::openmesh || s.budgetRule > BudgetRule::triangles)
       return wrongModel(
           "a simplifier and a budget rule of 0 or 1",
@@ -162,6 +165,22 @@ class Checker {
                        fmt::format("{} from {}", cell.viewPageCount, cell.firstViewPage));
     for (uint32_t page = cell.firstViewPage; page < cell.firstViewPage + cell.viewPageCount; ++page)
       if (!isOf(page, PageKind::views, i)) return wrongCell(i, "pages of its own views", fmt::format("page {}", page));
+    return errors(i);
+  }
+
+  // A way to draw the cell that is known, is at every scale, and is there.
+  Result<> errors(uint32_t i) const {
+    const CellRecord& cell = directory_.cells[i];
+    const bool measured = directory_.model.settings.measure != Measure::off;
+    for (size_t way = 0; way < kErrorWays; ++way) {
+      const bool there = way == static_cast<size_t>(ErrorWay::mesh) ? cell.meshTriangles > 0 : cell.viewPageCount > 0;
+      const auto& codes = cell.errors.codes[way];
+      const auto known =
+          static_cast<size_t>(std::count_if(codes.begin(), codes.end(), [](uint8_t c) { return c > 0; }));
+      if (known > 0 && (known < kErrorScales || !there || !measured))
+        return wrongCell(i, fmt::format("{} errors of way {}", there && measured ? "0 or 4" : "no", way),
+                         fmt::format("{}", known));
+    }
     return {};
   }
 

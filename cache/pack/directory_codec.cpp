@@ -29,7 +29,8 @@ void write(ByteWriter& out, const BuildSettings& settings) {
                           settings.maxLevel, settings.fixedLevel})
     out.i32(value);
   out.u32(static_cast<uint32_t>(settings.up));
-  out.u16(settings.bakeNormals ? 1 : 0);
+  out.u8(settings.bakeNormals ? 1 : 0);
+  out.u8(static_cast<uint8_t>(settings.measure));
   out.u16(static_cast<uint16_t>(settings.viewError));
   out.f64(settings.metresPerUnit);
   out.u32(static_cast<uint32_t>(settings.simplifier));
@@ -40,7 +41,7 @@ void write(ByteWriter& out, const BuildSettings& settings) {
 
 // Both 0 and 1 are the only values a flag may have: anything else could not be written back.
 bool readFlag(ByteReader& in, bool& valid) {
-  const uint16_t value = in.u16();
+  const uint8_t value = in.u8();
   valid = valid && value <= 1;
   return value == 1;
 }
@@ -52,6 +53,7 @@ BuildSettings readSettings(ByteReader& in, bool& valid) {
     *value = in.i32();
   settings.up = static_cast<UpAxis>(in.u32());
   settings.bakeNormals = readFlag(in, valid);
+  settings.measure = static_cast<Measure>(in.u8());
   settings.viewError = in.u16();
   settings.metresPerUnit = in.f64();
   settings.simplifier = static_cast<Simplifier>(in.u32());
@@ -134,6 +136,8 @@ void write(ByteWriter& out, const CellRecord& cell) {
   out.u64(cell.triangles);
   out.u64(cell.meshTriangles);
   out.f64(cell.geometricError);
+  for (const auto& way : cell.errors.codes)
+    for (const uint8_t code : way) out.u8(code);
 }
 
 CellRecord readCell(ByteReader& in) {
@@ -146,6 +150,8 @@ CellRecord readCell(ByteReader& in) {
   cell.triangles = in.u64();
   cell.meshTriangles = in.u64();
   cell.geometricError = in.f64();
+  for (auto& way : cell.errors.codes)
+    for (uint8_t& code : way) code = in.u8();
   return cell;
 }
 

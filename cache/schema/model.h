@@ -25,6 +25,13 @@ enum class BudgetRule : uint32_t {
   triangles = 1,  // cells of most triangles: the rule of the 2010 paper
 };
 
+// Which cells' image errors are measured; the others' are expected by what these have.
+enum class Measure : uint8_t {
+  off = 0,     // none: the pack holds no errors
+  sample = 1,  // some
+  all = 2,
+};
+
 inline constexpr int kMaxViewError = 8;
 
 // Everything that decides a pack's content, besides the input itself.
@@ -37,6 +44,7 @@ struct BuildSettings {
   int fixedLevel = -1;        // >= 0: all leaves at this depth, as in the 2010 paper
   UpAxis up = UpAxis::z;
   double metresPerUnit = 1;
+  Measure measure = Measure::sample;
   bool bakeNormals = false;  // views keep a prefiltered normal beside the lit colour
   int viewError = 0;  // a view's channels are this near to what was baked, in 255ths: 0 (lossless)..kMaxViewError
   Simplifier simplifier = Simplifier::collapse;

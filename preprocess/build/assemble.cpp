@@ -17,7 +17,6 @@ class Assembly {
     CellRecord& record = directory_.cells[cell];
     const MeshFigures mesh = context_.store.meshFigures(cell);
     record.meshTriangles = mesh.triangles;
-    record.geometricError = mesh.errorSteps * directory_.model.grid.step();
     for (uint32_t index = 0; index < mesh.parts; ++index) {
       FARCELL_ASSIGN(const CodedPart part, context_.store.part(cell, index));
       FARCELL_ASSIGN(const uint32_t page,
@@ -43,10 +42,18 @@ class Assembly {
     }
     for (uint32_t group = 0; group < groups.size(); ++group)
       if (!groups[group].empty()) FARCELL_TRY(viewPage(cell, group, groups[group]));
+    CellRecord& record = directory_.cells[cell];
+    if (record.viewPageCount == 0) forget(record.errors);
     return {};
   }
 
  private:
+  // Of views that were left out.
+  static void forget(ErrorTable& errors) {
+    for (const ErrorWay way : {ErrorWay::depthCorrected, ErrorWay::blended})
+      errors.codes[static_cast<size_t>(way)] = {};
+  }
+
   Result<> viewPage(uint32_t cell, uint32_t group, std::span<const EncodedView> views) {
     const EncodedViewPage page = viewPageOf(views);
     FARCELL_ASSIGN(const uint32_t index,

@@ -126,6 +126,10 @@ class Batch {
     views_.push_back(encodeView(image, context_.model.settings.viewError));
     cost.bytes = static_cast<uint32_t>(views_.back().stream.size());
     cost.texels = image.width * image.height;
+    for (size_t alpha = 3; alpha < image.rgba.size(); alpha += 4) {
+      cost.covered += image.rgba[alpha] > 0;
+      cost.edges += image.rgba[alpha] > 0 && image.rgba[alpha] < 255;
+    }
   }
 
   Result<> store() {

@@ -15,6 +15,7 @@
 #include "cache/pack/pack_file.h"
 #include "preprocess/build/assemble.h"
 #include "preprocess/build/bake_job.h"
+#include "preprocess/build/measure_job.h"
 #include "preprocess/build/mesh_job.h"
 #include "preprocess/build/source_record.h"
 #include "preprocess/build/work_directory.h"
@@ -98,6 +99,19 @@ class Jobs {
       FARCELL_TRY(bakeBatch(context_, batches[job], samplers_[static_cast<size_t>(thread)].get()));
       progress_.advance(2 * uint64_t{batches[job].pairCount});
       return {};
+    });
+  }
+
+  // After meshes and views.
+  Result<> errors() {
+    const Measure measure = context_.model.settings.measure;
+    if (measure == Measure::off) return {};
+    const std::vector<MeasureJob> jobs = own(measureJobs(context_.tree, measure),
+                                             [&](const MeasureJob& job) { return context_.store.hasErrors(job.cell); });
+    progress_.begin("measure", jobs.size(), "cells");
+    return run(jobs.size(), [&](size_t job, int thread) -> Result<> {
+      progress_.advance();
+      return measureStored(context_, jobs[job], samplers_[static_cast<size_t>(thread)].get());
     });
   }
 
@@ -351,6 +365,7 @@ class Build {
     Jobs jobs(context, samplers, threads_, crew_, progress_);
     FARCELL_TRY(jobs.meshes());
     FARCELL_TRY(jobs.views());
+    FARCELL_TRY(jobs.errors());
     shareTime(clock, secondsSince(start));
     if (leads()) FARCELL_TRY(assemble(context));
     return {};
@@ -379,10 +394,13 @@ class Build {
     result_.cpuSeconds.lod = 1e-9 * static_cast<double>(clock.meshNs);
     result_.cpuSeconds.bake = 1e-9 * static_cast<double>(clock.bakeNs);
     result_.cpuSeconds.encode = 1e-9 * static_cast<double>(clock.encodeNs);
-    const double work = std::max(static_cast<double>(clock.meshNs + clock.bakeNs + clock.encodeNs), 1.0);
+    result_.cpuSeconds.measure = 1e-9 * static_cast<double>(clock.measureNs);
+    const double work =
+        std::max(static_cast<double>(clock.meshNs + clock.bakeNs + clock.encodeNs + clock.measureNs), 1.0);
     result_.seconds.lod = wall * static_cast<double>(clock.meshNs) / work;
     result_.seconds.bake = wall * static_cast<double>(clock.bakeNs) / work;
     result_.seconds.encode = wall * static_cast<double>(clock.encodeNs) / work;
+    result_.seconds.measure = wall * static_cast<double>(clock.measureNs) / work;
   }
 
   Result<> assemble(const BuildContext& context) {
@@ -391,9 +409,11 @@ class Build {
     for (uint32_t cell = 0; cell < tree_.cells.size(); ++cell) {
       const MeshFigures mesh = store_->meshFigures(cell);
       directory.cells[cell].meshTriangles = mesh.triangles;
+      directory.cells[cell].geometricError = mesh.errorSteps * directory.model.grid.step();
       geometryBytes[cell] = mesh.bytes;
     }
     const std::vector<ViewCost> views = store_->viewCosts();
+    expect(views, directory);
     ChooseSettings settings;
     settings.rule = settings_.budgetRule;
     if (settings_.packBudgetBytes > 0) settings.packBudgetBytes = settings_.packBudgetBytes;
@@ -403,6 +423,14 @@ class Build {
     FARCELL_ASSIGN(result_.packBytes, assemblePack(context, pack_, views, choice.views, directory, progress_));
     progress_.end();
     return {};
+  }
+
+  void expect(std::span<const ViewCost> views, Directory& directory) {
+    const std::map<uint32_t, CellErrors> measured = store_->errors();
+    const ExpectedErrors expected =
+        expectErrors(directory.model, directory.cells, viewFigures(directory.cells.size(), views), measured);
+    for (size_t cell = 0; cell < directory.cells.size(); ++cell) directory.cells[cell].errors = expected.tables[cell];
+    result_.measured = {measured.size(), expected.unit, expected.apart, expected.alternatives};
   }
 
   void report(const Choice& choice, uint64_t viewsBaked, BuildReport& report) const {

@@ -1,10 +1,11 @@
 // From mesh files to a pack file.
 //
 // The life of a build: WorkDirectory::open -> openMeshes -> Textures::open -> partitionMesh (leaves on disk) ->
-// cellTreeOf (every cell up to the root) -> jobs on all threads (mesh_job.h, then bake_job.h), each of which stores
-// what it has finished (cell_store.h) -> chooseViews (what is worth its bytes) -> assemblePack. What partition and jobs
-// have made lies in the work directory: a build that was killed goes on from it. Same input and settings, same bytes,
-// for any number of threads and processes, any memory, and however often it was interrupted. CLUSTER.md: many machines.
+// cellTreeOf (every cell up to the root) -> jobs on all threads (mesh_job.h, then bake_job.h, measure_job.h), each of
+// which stores what it has finished (cell_store.h) -> chooseViews (what is worth its bytes) -> assemblePack. What
+// partition and jobs have made lies in the work directory: a build that was killed goes on from it. Same input and
+// settings, same bytes, for any number of threads and processes, any memory, and however often it was interrupted.
+// CLUSTER.md: many machines.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "cache/base/result.h"
 #include "cache/pack/directory.h"
 #include "preprocess/build/crew.h"
+#include "preprocess/measure/expect_errors.h"
 
 namespace farcell {
 
@@ -34,9 +36,9 @@ struct BuildOptions {
   std::function<void(const std::string& line)> tell;  // what people want to know before it begins; may be empty
 };
 
-// Seconds; lod, bake and encode overlap, and share the wall time of all jobs by the processor time of each.
+// Seconds; lod, bake, encode and measure overlap, and share the wall time of all jobs by the processor time of each.
 struct StageSeconds {
-  double read = 0, partition = 0, lod = 0, bake = 0, encode = 0, total = 0;
+  double read = 0, partition = 0, lod = 0, bake = 0, encode = 0, measure = 0, total = 0;
 };
 
 // Images that the mesh names. One that cannot be read is no error: its triangles keep the colours they have without it.
@@ -45,13 +47,22 @@ struct TextureReport {
   std::vector<Error> leftOut;  // why, one for each image
 };
 
+// What was measured, and how well it tells of what was not.
+struct MeasureReport {
+  uint64_t cells = 0;
+  double unit = 0;  // ErrorTable's 1
+  std::array<std::array<ExpectedApart, kErrorScales>, kErrorWays> apart{};
+  std::array<std::array<AlternativeMean, kAlternativeSizes.size()>, kAlternativeViews.size()> alternatives{};
+};
+
 struct BuildResult {
   bool resumed = false;  // work that an earlier build had left was used
   Directory directory;
   uint64_t packBytes = 0;
   StageSeconds seconds;     // wall
-  StageSeconds cpuSeconds;  // processor time of this process's threads; lod, bake and encode only
+  StageSeconds cpuSeconds;  // processor time of this process's threads; lod, bake, encode and measure only
   TextureReport textures;
+  MeasureReport measured;
   std::vector<std::filesystem::path> files;  // that it was read from, see MeshReader
 };
 

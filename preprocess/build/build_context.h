@@ -17,7 +17,7 @@ namespace farcell {
 
 // Processor time of all threads, by kind of work.
 struct WorkClock {
-  std::atomic<int64_t> meshNs{0}, bakeNs{0}, encodeNs{0};
+  std::atomic<int64_t> meshNs{0}, bakeNs{0}, encodeNs{0}, measureNs{0};
 };
 
 // Adds the processor time that this thread uses while it lives to a sum.

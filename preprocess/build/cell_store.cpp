@@ -12,6 +12,24 @@ namespace {
 uint64_t idOf(uint32_t cell, uint32_t what) { return uint64_t{cell} << 32 | what; }
 uint64_t idOf(const ViewBatch& batch) { return idOf(batch.cell, batch.firstPair); }
 
+// In the order of the journal.
+template <class Visit>
+void forEachNumber(CellErrors& errors, const Visit& visit) {
+  const auto both = [&](ErrorSum& sum) {
+    visit(sum.error);
+    visit(sum.covered);
+  };
+  for (ErrorSum& sum : errors.single) both(sum);
+  for (auto& way : errors.ways)
+    for (ErrorSum& sum : way) both(sum);
+  for (auto& set : errors.alternatives)
+    for (Alternative& alternative : set) {
+      both(alternative.depthCorrected);
+      both(alternative.blended);
+      visit(alternative.bytes);
+    }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& workDirectory, uint32_t writer,
@@ -46,8 +64,16 @@ Result<> CellStore::add(const ViewBatch& batch, std::span<const ViewCost> baked,
     head.u32(view.view);
     head.u32(view.bytes);
     head.u32(view.texels);
+    head.u32(view.covered);
+    head.u32(view.edges);
   }
   return journal_->add({static_cast<uint32_t>(Kind::views), idOf(batch)}, head.bytes, viewPageOf(views).bytes);
+}
+
+Result<> CellStore::addErrors(uint32_t cell, CellErrors errors) {
+  ByteWriter head;
+  forEachNumber(errors, [&](double number) { head.f64(number); });
+  return journal_->add({static_cast<uint32_t>(Kind::errors), cell}, head.bytes, {});
 }
 
 // A head of the wrong size is not ours and says nothing: its checksum was right, so no crash made it.
@@ -65,6 +91,8 @@ void CellStore::found(const JournalRecord& record, std::span<const std::byte> he
     meshes_.emplace(static_cast<uint32_t>(record.id), mesh);
   } else if (record.kind == static_cast<uint32_t>(Kind::views) && batches_.emplace(record.id, place).second) {
     foundViews(static_cast<uint32_t>(record.id >> 32), head);
+  } else if (record.kind == static_cast<uint32_t>(Kind::errors)) {
+    foundErrors(static_cast<uint32_t>(record.id), head);
   }
 }
 
@@ -75,8 +103,17 @@ void CellStore::foundViews(uint32_t cell, std::span<const std::byte> head) {
     cost.view = in.u32();
     cost.bytes = in.u32();
     cost.texels = in.u32();
+    cost.covered = in.u32();
+    cost.edges = in.u32();
     views_.push_back(cost);
   }
+}
+
+void CellStore::foundErrors(uint32_t cell, std::span<const std::byte> head) {
+  CellErrors errors;
+  ByteReader in(head);
+  forEachNumber(errors, [&](double& number) { number = in.f64(); });
+  errors_.emplace(cell, errors);
 }
 
 bool CellStore::hasMesh(uint32_t cell) const {
@@ -119,6 +156,16 @@ Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {
   }
   std::sort(views.begin(), views.end(), [](const EncodedView& a, const EncodedView& b) { return a.view < b.view; });
   return views;
+}
+
+bool CellStore::hasErrors(uint32_t cell) const {
+  const std::lock_guard lock(mutex_);
+  return errors_.count(cell) > 0;
+}
+
+std::map<uint32_t, CellErrors> CellStore::errors() const {
+  const std::lock_guard lock(mutex_);
+  return errors_;
 }
 
 std::vector<ViewCost> CellStore::viewCosts() const {

@@ -11,6 +11,7 @@
 #include "cache/pack/encoded_view.h"
 #include "preprocess/build/journal.h"
 #include "preprocess/choose/choose.h"
+#include "preprocess/measure/measure_cell.h"
 
 namespace farcell {
 
@@ -47,7 +48,9 @@ class CellStore {
   Result<> add(uint32_t cell, const MeshFigures& mesh);
   // baked: what became of each view of the batch that is wanted; views: those that are not empty, by rising view.
   Result<> add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views);
+  Result<> addErrors(uint32_t cell, CellErrors errors);
   bool hasMesh(uint32_t cell) const;
+  bool hasErrors(uint32_t cell) const;
   bool has(const ViewBatch& batch) const;
   MeshFigures meshFigures(uint32_t cell) const;                // REQUIRES: hasMesh
   Result<CodedPart> part(uint32_t cell, uint32_t part) const;  // REQUIRES: hasMesh, part < meshFigures(cell).parts
@@ -59,9 +62,10 @@ class CellStore {
   Result<> refresh() { return journal_->refresh(); }
   // Of all views that were baked, by cell, then view. Call it when nothing is added any more.
   std::vector<ViewCost> viewCosts() const;
+  std::map<uint32_t, CellErrors> errors() const;  // of the cells that were measured
 
  private:
-  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3 };
+  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3, errors = 4 };
   struct StoredPart {
     uint32_t decodedBytes = 0;
     JournalPlace place;
@@ -70,6 +74,7 @@ class CellStore {
   explicit CellStore(const ViewLimits& limits) : limits_(limits) {}
   void found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place);
   void foundViews(uint32_t cell, std::span<const std::byte> head);
+  void foundErrors(uint32_t cell, std::span<const std::byte> head);
 
   const ViewLimits limits_;
   mutable std::mutex mutex_;
@@ -78,6 +83,7 @@ class CellStore {
   std::map<uint32_t, MeshFigures> meshes_;
   std::map<uint64_t, JournalPlace> batches_;  // by cell, then first pair
   std::vector<ViewCost> views_;
+  std::map<uint32_t, CellErrors> errors_;
   std::unique_ptr<Journal> journal_;  // the last: its sink fills the others
 };
 

@@ -154,6 +154,19 @@ std::vector<uint32_t> SoupSource::leavesInside(uint32_t cell) const {
   return found;
 }
 
+std::vector<uint32_t> SoupSource::leavesBelow(uint32_t cell) const {
+  std::vector<uint32_t> found, open = {cell};
+  while (!open.empty()) {
+    const uint32_t index = open.back();
+    open.pop_back();
+    const CellRecord& record = tree_.cells[index];
+    if (record.childCount == 0 && record.triangles > 0) found.push_back(index);
+    for (uint32_t child = 0; child < record.childCount; ++child) open.push_back(record.firstChild + child);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 Result<> SoupSource::append(uint32_t cell, uint32_t leafCell, CellSoup& soup,
                             const std::function<Result<>()>& appended) const {
   const LocalFrame local(model_.grid, tree_.cells[cell].key);

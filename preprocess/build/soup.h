@@ -15,8 +15,10 @@ class SoupSource {
   SoupSource(const Model& model, const CellTree& tree, const Partition& partition)
       : model_(model), tree_(tree), partition_(partition) {}
 
-  // Indices of cells of the tree, rising.
+  // Those with content inside the grown cell; indices of cells of the tree, rising.
   std::vector<uint32_t> leavesInside(uint32_t cell) const;
+  // Those that the cell itself is made of, likewise.
+  std::vector<uint32_t> leavesBelow(uint32_t cell) const;
   // Appends the part of `leafCell` that lies in the grown cube of `cell`, and calls `appended` after each portion of a
   // few thousand triangles: it may use up and clear the soup.
   Result<> append(uint32_t cell, uint32_t leafCell, CellSoup& soup, const std::function<Result<>()>& appended) const;

@@ -30,12 +30,15 @@ inline constexpr size_t kViewFates = 7;
 // As reports name it: "costsMoreThanItBrings".
 const char* nameOf(ViewFate fate);
 
-// One baked view. bytes: its coded stream; texels: of its cropped rectangle, 0: it shows nothing.
+// One baked view. bytes: its coded stream; texels: of its cropped rectangle, 0: it shows nothing; covered: those with
+// anything; edges: those of them that are covered in part.
 struct ViewCost {
   uint32_t cell = 0;
   uint32_t view = 0;
   uint32_t bytes = 0;
   uint32_t texels = 0;
+  uint32_t covered = 0;
+  uint32_t edges = 0;
 };
 
 // The spans must outlive the call. Of a cell, all views that somebody can get are there.

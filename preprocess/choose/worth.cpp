@@ -24,13 +24,23 @@ int Worth::first(uint32_t cell) const {
   return kSamplesPerOctave * (deepest_ - static_cast<int>(cells_[cell].key.level));
 }
 
+double Worth::texelPixels(uint32_t cell, int sample) const {
+  return kWorthTexelPixels * std::exp2(double(first(cell) - sample) / kSamplesPerOctave);
+}
+
 double Worth::pixels(uint32_t cell, int sample) const {
-  const double texelPixels = kWorthTexelPixels * std::exp2(double(first(cell) - sample) / kSamplesPerOctave);
-  return double(meanTexels_[cell]) * texelPixels * texelPixels;
+  const double texel = texelPixels(cell, sample);
+  return double(meanTexels_[cell]) * texel * texel;
+}
+
+double Worth::error(uint32_t cell, ErrorWay way, int sample, double unknown) const {
+  const ErrorTable& errors = cells_[cell].errors;
+  return errors.knows(way) ? expectedError(errors, way, texelPixels(cell, sample)) : unknown;
 }
 
 double Worth::impostor(uint32_t cell, int sample) const {
-  const double perPixel = kCosts.pixelUs + kCosts.errorUs * kCosts.impostorError;
+  const double error = Worth::error(cell, ErrorWay::depthCorrected, sample, kCosts.impostorError);
+  const double perPixel = kCosts.pixelUs + kCosts.errorUs * error;
   return kCosts.impostorUs + 2 * kCosts.texelUs * double(meanTexels_[cell]) + perPixel * pixels(cell, sample);
 }
 
@@ -39,7 +49,7 @@ double Worth::without(uint32_t index, int sample) const {
   if (cell.triangles == 0) return 0;
   if (cell.childCount == 0)
     return kCosts.meshUs + kCosts.triangleUs * static_cast<double>(cell.triangles) +
-           kCosts.errorUs * kCosts.triangleError * pixels(index, sample);
+           kCosts.errorUs * error(index, ErrorWay::mesh, sample, kCosts.triangleError) * pixels(index, sample);
   double sum = 0;
   for (uint32_t child = cell.firstChild; child < cell.firstChild + cell.childCount; ++child)
     sum += costs_[static_cast<size_t>(child) * static_cast<size_t>(samples_) + static_cast<size_t>(sample)];

@@ -9,7 +9,7 @@
 // - A cell is drawn whole or not at all, everything in it at one distance; what hides it is not known.
 // - Cost is time on the measured machine (no GPU: MEASURED.md, tests/bench/figures/results.md) plus error, at the price
 //   that going from 1 to 4 samples pays for error: microseconds a frame. Error is that of evaluate, of which a pixel of
-//   the full geometry at 1 sample has 1.
+//   the full geometry at 1 sample has 1, as measured (CellRecord::errors).
 // The worth of a cell's views is the cost of what would be drawn instead less their own, summed over octaves.
 #pragma once
 
@@ -27,8 +27,8 @@ struct CostTable {
   double impostorUs = 10;       // an impostor drawn at all
   double pixelUs = 0.08;        // of an impostor of kind A, four rays
   double texelUs = 0.002;       // of the two views: read, inflated and uploaded once in a while
-  double triangleError = 0.40;  // a pixel, 4 samples
-  double impostorError = 0.27;  // a pixel, kind A, texels of half a pixel or less
+  double triangleError = 0.40;  // a pixel, 4 samples; where the cell's own is not known
+  double impostorError = 0.27;  // a pixel, kind A, texels of half a pixel or less; likewise
   double errorUs = 0.3;         // price of a pixel of error 1: what 4 samples take more than 1, for .6 less
 };
 inline constexpr CostTable kCosts{};
@@ -61,7 +61,10 @@ class Worth {
   double between(uint32_t cell, int end) const;
   double impostor(uint32_t cell, int sample) const;
   double without(uint32_t cell, int sample) const;
+  double texelPixels(uint32_t cell, int sample) const;
   double pixels(uint32_t cell, int sample) const;
+  // As the cell's table has it; where that does not know, `unknown`.
+  double error(uint32_t cell, ErrorWay way, int sample, double unknown) const;
   double& cost(uint32_t cell, int sample) { return costs_[static_cast<size_t>(cell) * samples_ + sample]; }
 
   std::span<const CellRecord> cells_;

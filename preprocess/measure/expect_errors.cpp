@@ -15,7 +15,7 @@ constexpr double kLeastMeanError = 1e-3;  // of a pixel: less is nothing
 std::optional<double> logError(const std::array<ErrorSum, kErrorScales>& sums, size_t scale) {
   while (scale > 0 && sums[scale].covered == 0) --scale;
   if (sums[scale].covered <= 0) return std::nullopt;
-  return std::log2(std::max(sums[scale].error / sums[scale].covered, kLeastMeanError));
+  return std::log2(std::max(sums[scale].mean(), kLeastMeanError));
 }
 
 // What is known of one way at one scale.
@@ -72,6 +72,20 @@ double unitOf(const std::map<uint32_t, CellErrors>& measured) {
   return count > 0 ? std::exp2(sum / static_cast<double>(count)) : 0;
 }
 
+AlternativeMean meanOf(const std::map<uint32_t, CellErrors>& measured, size_t set, size_t size, double unit) {
+  ErrorSum depthCorrected, blended;
+  double bytes = 0, cells = 0;
+  for (const auto& [cell, errors] : measured) {
+    const Alternative& alternative = errors.alternatives[set][size];
+    if (alternative.bytes == 0) continue;
+    ++cells;
+    depthCorrected.add(alternative.depthCorrected);
+    blended.add(alternative.blended);
+    bytes += alternative.bytes;
+  }
+  return {depthCorrected.mean() / unit, blended.mean() / unit, bytes / std::max(cells, 1.0)};
+}
+
 bool has(ErrorWay way, const CellRecord& cell, const ViewFigures& views) {
   return way == ErrorWay::mesh ? cell.meshTriangles > 0 : views.views > 0;
 }
@@ -102,6 +116,9 @@ ExpectedErrors expectErrors(const Model& model, std::span<const CellRecord> cell
   result.tables.resize(cells.size());
   result.unit = unitOf(measured);
   if (result.unit <= 0) return result;
+  for (size_t set = 0; set < kAlternativeViews.size(); ++set)
+    for (size_t size = 0; size < kAlternativeSizes.size(); ++size)
+      result.alternatives[set][size] = meanOf(measured, set, size, result.unit);
   std::vector<Features> features;
   for (size_t cell = 0; cell < cells.size(); ++cell) features.push_back(featuresOf(model, cells[cell], views[cell]));
   for (size_t way = 0; way < kErrorWays; ++way) {

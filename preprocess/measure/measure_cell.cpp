@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "cache/base/check.h"
+#include "cache/pack/encoded_view.h"
+#include "preprocess/encode/view_image.h"
 
 namespace farcell {
 namespace {
@@ -16,17 +17,59 @@ constexpr int kMeshSamples = 4;
 // Of impostors, where a texel is two pixels, every fourth pixel says enough.
 constexpr int kFinestStride = 2;
 
+int edgeOf(int imageSize, size_t scale) { return static_cast<int>(imageSize * kErrorTexelPixels[scale]); }
+
 struct Pair {
   Picture front, back;
   const Picture& side(int i) const { return i == 0 ? front : back; }
 };
 
-int edgeOf(int imageSize, size_t scale) { return static_cast<int>(imageSize * kErrorTexelPixels[scale]); }
+constexpr size_t kAlternativeScale = 1;
+
+// Views baked for the occasion, each with its antipode, which is soon asked for.
+class BakedViews {
+ public:
+  BakedViews(const MeasuredCell& cell, const Viewpoints& viewpoints, int imageSize, const MeasureSettings& settings)
+      : cell_(cell),
+        viewpoints_(viewpoints),
+        imageSize_(imageSize),
+        viewError_(settings.viewError),
+        baker_({imageSize, settings.samples, settings.sun, false}, cell.textures) {}
+
+  ViewImage operator()(int view) {
+    if (const auto known = baked_.find(view); known != baked_.end()) return known->second;
+    BakedView front, back;
+    baker_.begin(viewFrame(viewpoints_.directions()[static_cast<size_t>(view)]));
+    baker_.add(cell_.grown);
+    baker_.finish(front, back);
+    keep(front, view);
+    keep(back, viewpoints_.antipode(view));
+    return baked_.at(view);
+  }
+
+  double meanBytes() const {
+    double bytes = 0;
+    for (const auto& [number, view] : baked_)
+      if (view.width > 0) bytes += static_cast<double>(encodeView(view, viewError_).stream.size());
+    return bytes / static_cast<double>(baked_.size());
+  }
+
+ private:
+  void keep(const BakedView& baked, int view) {
+    baked_.emplace(view, quantisedView(baked, static_cast<uint32_t>(view), imageSize_));
+  }
+
+  const MeasuredCell& cell_;
+  const Viewpoints& viewpoints_;
+  const int imageSize_, viewError_;
+  ViewBaker baker_;
+  std::map<int, ViewImage> baked_;
+};
 
 class Measurement {
  public:
   Measurement(const MeasuredCell& cell, const ViewOf& view, const MeasureSettings& settings)
-      : cell_(cell), view_(view), settings_(settings) {
+      : cell_(cell), settings_(settings), views_(settings.viewpoints, settings.imageSize, view) {
     while (scales_ > 1 && edgeOf(settings.imageSize, scales_ - 1) > kMaxMeasuredEdge) --scales_;
   }
 
@@ -45,6 +88,32 @@ class Measurement {
     return {pictureOf(front, edge), pictureOf(back, edge)};
   }
 
+  // Where a texel is half a pixel.
+  Result<> alternatives(const Pair& truth, const std::array<OwnPixels, 2>& own, glm::dvec3 direction) {
+    for (size_t set = 0; set < kAlternativeViews.size(); ++set) {
+      FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(kAlternativeViews[set]));
+      for (size_t size = 0; size < kAlternativeSizes.size(); ++size) {
+        BakedViews baked(cell_, viewpoints, kAlternativeSizes[size], settings_);
+        const ViewOf view = [&](int number) { return baked(number); };
+        ViewSet views(viewpoints, kAlternativeSizes[size], view);
+        Alternative& sums = errors_.alternatives[set][size];
+        for (int side = 0; side < 2; ++side) {
+          const glm::dvec3 toward = side == 0 ? direction : -direction;
+          const auto add = [&](std::span<const WeightedView> some, ErrorSum& sum) {
+            sum.add(truth.side(side), impostorPicture(cell_.content, some, toward, truth.front.edge),
+                    own[static_cast<size_t>(side)]);
+          };
+          FARCELL_ASSIGN(const auto two, views.nearestTwo(toward));
+          add(two, sums.depthCorrected);
+          FARCELL_ASSIGN(const auto three, views.nearestThree(toward));
+          add(three, sums.blended);
+        }
+        sums.bytes = baked.meanBytes() * kAlternativeViews[set];
+      }
+    }
+    return {};
+  }
+
   Result<> alongAxis(glm::dvec3 direction) {
     const int finest = edgeOf(settings_.imageSize, scales_ - 1);
     Pair truth = bake(cell_.grown, direction, finest, kTruthSamples);
@@ -55,6 +124,8 @@ class Measurement {
       for (int side = 0; side < 2; ++side)
         FARCELL_TRY(
             impostors(truth.side(side), own[static_cast<size_t>(side)], side == 0 ? direction : -direction, scale));
+      if (settings_.alternatives && scale == kAlternativeScale && direction == glm::normalize(kDirections[0]))
+        FARCELL_TRY(alternatives(truth, own, direction));
       if (scale > 0) truth = {halved(truth.front), halved(truth.back)};
     }
     return {};
@@ -75,54 +146,19 @@ class Measurement {
     const auto add = [&](std::span<const WeightedView> views, ErrorSum& sum) {
       sum.add(truth, impostorPicture(cell_.content, views, direction, truth.edge, stride), own, stride);
     };
-    FARCELL_ASSIGN(const auto two, nearestTwo(direction));
+    FARCELL_ASSIGN(const auto two, views_.nearestTwo(direction));
     add(two, way(ErrorWay::depthCorrected)[scale]);
-    FARCELL_ASSIGN(const auto three, nearestThree(direction));
+    FARCELL_ASSIGN(const auto three, views_.nearestThree(direction));
     add(three, way(ErrorWay::blended)[scale]);
     return {};
   }
 
   std::array<ErrorSum, kErrorScales>& way(ErrorWay way) { return errors_.ways[static_cast<size_t>(way)]; }
 
-  Result<std::array<WeightedView, 2>> nearestTwo(glm::dvec3 direction) {
-    const auto [first, second] = settings_.viewpoints.nearestTwo(direction);
-    FARCELL_ASSIGN(const ViewTexels* nearest, texels(first));
-    FARCELL_ASSIGN(const ViewTexels* next, texels(second));
-    return std::array<WeightedView, 2>{WeightedView{nearest, 0}, WeightedView{next, 0}};
-  }
-
-  // As the renderer does: empty views have no say, sets of face centres have the nearest two.
-  Result<std::array<WeightedView, 3>> nearestThree(glm::dvec3 direction) {
-    const auto [first, second] = settings_.viewpoints.nearestTwo(direction);
-    const Viewpoints::Triple triple = settings_.viewpoints.hasTriangles()
-                                          ? settings_.viewpoints.nearestThree(direction)
-                                          : Viewpoints::Triple{{first, second, second}, {1, 0, 0}};
-    std::array<WeightedView, 3> views;
-    double sum = 0;
-    for (size_t i = 0; i < views.size(); ++i) {
-      FARCELL_ASSIGN(views[i].texels, texels(triple.views[i]));
-      views[i].weight = views[i].texels->view.layer >= 0 ? triple.weights[i] : 0;
-      sum += views[i].weight;
-    }
-    std::stable_partition(views.begin(), views.end(),
-                          [](const WeightedView& view) { return view.texels->view.layer >= 0; });
-    for (WeightedView& view : views) view.weight = sum > 0 ? view.weight / sum : 0;
-    return views;
-  }
-
-  Result<const ViewTexels*> texels(int view) {
-    const auto found = texels_.find(view);
-    if (found != texels_.end()) return &found->second;
-    FARCELL_ASSIGN(const ViewImage image, view_(view));
-    const glm::dvec3 direction = settings_.viewpoints.directions()[static_cast<size_t>(view)];
-    return &texels_.emplace(view, ViewTexels(image, direction, settings_.imageSize)).first->second;
-  }
-
   const MeasuredCell& cell_;
-  const ViewOf& view_;
   const MeasureSettings& settings_;
   size_t scales_ = kErrorScales;
-  std::map<int, ViewTexels> texels_;
+  ViewSet views_;
   CellErrors errors_;
 };
 

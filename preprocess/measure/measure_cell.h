@@ -7,14 +7,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 
 #include "cache/base/result.h"
 #include "cache/pack/error_table.h"
 #include "cache/schema/viewpoints.h"
-#include "preprocess/measure/impostor_picture.h"
+#include "preprocess/measure/view_set.h"
 
 namespace farcell {
 
@@ -32,22 +31,33 @@ struct MeasureSettings {
   int imageSize = 128;  // texels along a view's edge
   int samples = 16;     // per texel of views
   glm::vec3 sun{0, 0, 1};
+  int viewError = 0;          // of alternatives, as BuildSettings::viewError
+  bool alternatives = false;  // are measured too
+};
+
+// What other sets of views would show, and take: where a texel of the settings' own views is half a pixel, along the
+// first direction.
+inline constexpr std::array<int, 4> kAlternativeViews = {12, 42, 162, 642};
+inline constexpr std::array<int, 3> kAlternativeSizes = {64, 128, 256};
+struct Alternative {
+  ErrorSum depthCorrected, blended;
+  double bytes = 0;  // of all views together, coded
 };
 
 // Sums over directions, of each way to draw the cell and of full geometry at one sample a pixel.
 struct CellErrors {
   std::array<ErrorSum, kErrorScales> single{};
   std::array<std::array<ErrorSum, kErrorScales>, kErrorWays> ways{};
+  std::array<std::array<Alternative, kAlternativeSizes.size()>, kAlternativeViews.size()> alternatives{};
 };
 
 // Unit, of those seen from the other side as well.
 std::span<const glm::dvec3> measuredDirections();
 
 // Pictures of more pixels along an edge are not taken: kErrorTexelPixels beyond stay without covered pixels.
-inline constexpr int kMaxMeasuredEdge = 512;
+inline constexpr int kMaxMeasuredEdge = 256;
 
 // view: the cell's view of a number as the pack holds it.
-using ViewOf = std::function<Result<ViewImage>(int view)>;
 Result<CellErrors> measureCell(const MeasuredCell& cell, const ViewOf& view, const MeasureSettings& settings);
 
 }  // namespace farcell

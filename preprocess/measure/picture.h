@@ -39,6 +39,11 @@ struct ErrorSum {
   double covered = 0;  // pixels of the truth, by coverage
 
   // stride: only each so many-th row and column counts.
+  double mean() const { return covered > 0 ? error / covered : 0; }
+  void add(const ErrorSum& other) {
+    error += other.error;
+    covered += other.covered;
+  }
   void add(const Picture& truth, const Picture& picture, const OwnPixels& own, int stride = 1);
 };
 inline constexpr glm::vec3 kMeasureBackground(179.0f / 255, 204.0f / 255, 230.0f / 255);

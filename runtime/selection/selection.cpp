@@ -97,7 +97,8 @@ class Selector {
     const size_t place = nodes_.size();
     const bool views = mayHaveViews() && cell.firstViewPage != kNone && (cell.childCount == 0 || isOutside(cell));
     const bool far = views && isOutside(cell) && texelPixels(cell) <= settings_.texelPixels;
-    nodes_.push_back({.cell = index, .open = cell.childCount > 0 && !far});
+    const bool weighs = far && weighsOtherWays(cell);
+    nodes_.push_back({.cell = index, .open = cell.childCount > 0 && (!far || weighs)});
     if (prune_ && !needed && hidden_->hides(index)) {
       nodes_[place].end = static_cast<uint32_t>(nodes_.size());
       nodes_[place].mesh = nodes_[place].views = {.loss = 0, .amounts = {}};
@@ -107,8 +108,9 @@ class Selector {
     CutNode& node = nodes_[place];
     node.end = static_cast<uint32_t>(nodes_.size());
     node.areaPixels = node.open ? areaBelow(place) : areaPixels(cell);
-    if (views && !needed && (!node.open || mayBeCoarse(cell))) node.views = asViews(cell, node.areaPixels);
-    if (mayBeMesh(cell) && !far && (!needed || cell.childCount == 0)) node.mesh = asMesh(cell, node.areaPixels);
+    if (views && !needed && (far || !node.open || mayBeCoarse(cell))) node.views = asViews(cell, node.areaPixels);
+    if (mayBeMesh(cell) && (!far || weighs) && (!needed || cell.childCount == 0))
+      node.mesh = asMesh(cell, node.areaPixels);
     return needed;
   }
 
@@ -144,7 +146,8 @@ class Selector {
   Way asMesh(const CellRecord& cell, double areaBelowPixels) const {
     const auto triangles = static_cast<double>(cell.meshTriangles);
     const double density = static_cast<double>(cell.triangles) / areaBelowPixels;
-    const double loss = settings_.mode == RenderMode::automatic ? meshLoss(cell, meshPixels(cell), density) : 0;
+    const double loss =
+        settings_.mode == RenderMode::automatic ? meshLoss(cell, texelPixels(cell), meshPixels(cell), density) : 0;
     Way way{.loss = areaBelowPixels * loss, .amounts = {}};
     at(way.amounts, Resource::milliseconds) = expectedMs(settings_.costs, workOf(cell, false));
     at(way.amounts, Resource::triangles) = triangles;
@@ -202,6 +205,13 @@ class Selector {
   bool mayBeCoarse(const CellRecord& cell) const {
     const bool isShort = settings_.timeBudgetMs > 0 || settings_.texelBudget > 0 || settings_.byteBudget > 0;
     return settings_.mode == RenderMode::automatic && isShort && texelPixels(cell) <= kCoarsest * settings_.texelPixels;
+  }
+
+  // Of a cell that is far enough for its views: with measured errors its mesh and, until its texels are half as large
+  // as they may be, those below it are weighed against them.
+  bool weighsOtherWays(const CellRecord& cell) const {
+    return settings_.mode == RenderMode::automatic && cell.errors.knows(ErrorWay::depthCorrected) &&
+           texelPixels(cell) > settings_.texelPixels / 2;
   }
 
   // What a convex body of the box's size covers, mean over directions: a quarter of its surface (Cauchy).

@@ -2,7 +2,8 @@
 //
 // The 2010 paper's rule (Saraiva, Oliveira, Madeiras Pereira, WSCG 2010, section 3.2) with a level rule: from the root
 // down, a cell outside the frustum is dropped; a cell whose texel is at most texelPixels of a pixel at the cell's
-// nearest point, and from whose bounding sphere the eye is outside, is an impostor.
+// nearest point, and from whose bounding sphere the eye is outside, is an impostor. Where the build measured errors
+// (loss.h), such a cell may also be what is too near for that, until a texel is half as large.
 //
 // What is too near for that is the cut of the least loss: of leaves in full, leaves as impostors, and inner cells as
 // simplified meshes whose geometric error is at most meshPixels at the cell's nearest point. A way of drawing a cell

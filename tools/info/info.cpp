@@ -1,6 +1,7 @@
 #include "tools/info/info.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -43,6 +44,9 @@ Json settingsJson(const BuildSettings& settings) {
           {"maxLevel", settings.maxLevel},
           {"fixedLevel", settings.fixedLevel},
           {"bakeNormals", settings.bakeNormals},
+          {"measure", settings.measure == Measure::off   ? "off"
+                      : settings.measure == Measure::all ? "all"
+                                                         : "sample"},
           {"viewError", settings.viewError},
           {"simplifier", settings.simplifier == Simplifier::openmesh ? "openmesh" : "collapse"},
           {"packBudgetBytes", settings.packBudgetBytes},
@@ -77,6 +81,28 @@ Json levelsJson(const Directory& directory) {
                     {"triangles", levels[i].triangles},
                     {"meshTriangles", levels[i].meshTriangles},
                     {"geometricErrorMetres", levels[i].geometricError * directory.model.settings.metresPerUnit}});
+  return json;
+}
+
+// Of each way to draw cells: how many have an error, and its median, at each size of a texel on screen.
+Json errorsJson(const Directory& directory) {
+  constexpr std::array<const char*, kErrorWays> kNames = {"mesh", "depthCorrected", "blended"};
+  Json json = Json::object();
+  for (size_t way = 0; way < kErrorWays; ++way) {
+    Json medians = Json::array();
+    std::vector<uint8_t> codes;
+    for (size_t scale = 0; scale < kErrorScales; ++scale) {
+      codes.clear();
+      for (const CellRecord& cell : directory.cells)
+        if (cell.errors.knows(static_cast<ErrorWay>(way))) codes.push_back(cell.errors.codes[way][scale]);
+      if (codes.empty()) break;
+      const auto middle = codes.begin() + static_cast<ptrdiff_t>(codes.size() / 2);
+      std::nth_element(codes.begin(), middle, codes.end());
+      medians.push_back(errorFromCode(*middle));
+    }
+    if (!codes.empty()) json[kNames[way]] = {{"cells", codes.size()}, {"median", medians}};
+  }
+  json["texelPixels"] = kErrorTexelPixels;
   return json;
 }
 
@@ -118,6 +144,7 @@ Json packInfoJson(const PackFile& pack) {
   json["model"] = modelJson(directory);
   json["settings"] = settingsJson(directory.model.settings);
   json["levels"] = levelsJson(directory);
+  json["errors"] = errorsJson(directory);
   json["pages"] = {{"geometry", geometryPages},
                    {"views", static_cast<int64_t>(directory.pages.size()) - geometryPages}};
   return json;

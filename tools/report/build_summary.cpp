@@ -60,14 +60,39 @@ std::string leftOutTable(const BuildSummary& summary) {
   return text;
 }
 
+std::string expectedTable(const BuildSummary& summary) {
+  if (summary.expected.empty()) return "";
+  std::string text = fmt::format("\n{:<16}{:>8}", "expected errors", "cells");
+  for (const std::string& scale : summary.expected[0].scales) text += fmt::format("{:>14}", scale);
+  text += "   median, 90 % off by\n";
+  for (const BuildSummary::Expected& row : summary.expected) {
+    text += fmt::format("{:<16}{:>8}", row.way, row.cells);
+    for (size_t scale = 0; scale < row.median.size(); ++scale)
+      text +=
+          fmt::format("{:>14}", fmt::format("{:.0f} %, {:.0f} %", 100 * row.median[scale], 100 * row.ninetieth[scale]));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string alternativesTable(const BuildSummary& summary) {
+  if (summary.alternatives.empty()) return "";
+  std::string text =
+      fmt::format("\n{:<12}{:>10}{:>10}{:>10}{:>14}\n", "other views", "size", "error A", "error B", "bytes a cell");
+  for (const BuildSummary::Alternative& row : summary.alternatives)
+    text += fmt::format("{:<12}{:>10}{:>10.3f}{:>10.3f}{:>14}\n", row.views, row.imageSize, row.errorA, row.errorB,
+                        bytesText(static_cast<uint64_t>(row.bytes)));
+  return text;
+}
+
 }  // namespace
 
 std::string buildSummaryText(const BuildSummary& summary) {
-  return fmt::format("{} triangles, {} + {} inner cells, {} of {} views kept\n\n{}\n{}{}\npack {}; peak memory {}\n",
-                     summary.triangles, summary.leaves, summary.innerCells, summary.viewsKept, summary.viewsBaked,
-                     stageTable(summary), partTable(summary), leftOutTable(summary),
-                     ofLimit(summary.packBytes, summary.packBudget),
-                     ofLimit(summary.peakRssBytes, summary.memoryLimit));
+  return fmt::format(
+      "{} triangles, {} + {} inner cells, {} of {} views kept\n\n{}\n{}{}{}{}\npack {}; peak memory {}\n",
+      summary.triangles, summary.leaves, summary.innerCells, summary.viewsKept, summary.viewsBaked, stageTable(summary),
+      partTable(summary), leftOutTable(summary), expectedTable(summary), alternativesTable(summary),
+      ofLimit(summary.packBytes, summary.packBudget), ofLimit(summary.peakRssBytes, summary.memoryLimit));
 }
 
 }  // namespace farcell

@@ -28,6 +28,23 @@ struct BuildSummary {
     std::optional<uint64_t> bytesSaved;
   };
 
+  // How far the image errors expected of cells are from what they would be measured to be.
+  struct Expected {
+    std::string way;  // to draw them: "mesh"
+    uint64_t cells = 0;
+    std::vector<std::string> scales;  // texels: ".5 px"
+    std::vector<double> median;       // |expected / measured - 1|, by scale
+    std::vector<double> ninetieth;
+  };
+
+  // What other views would show, and take.
+  struct Alternative {
+    int views = 0;
+    int imageSize = 0;
+    double errorA = 0, errorB = 0;  // of kinds A and B, in those of full geometry at one sample a pixel
+    double bytes = 0;               // a cell
+  };
+
   uint64_t triangles = 0;
   uint64_t leaves = 0;
   uint64_t innerCells = 0;
@@ -42,6 +59,8 @@ struct BuildSummary {
   uint64_t peakRssBytes = 0;
   uint64_t memoryLimit = 0;  // bytes; 0: none
   std::vector<LeftOut> leftOut;
+  std::vector<Expected> expected;
+  std::vector<Alternative> alternatives;
 };
 
 // At most 80 columns, unless a reason is long.

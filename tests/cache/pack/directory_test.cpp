@@ -1,8 +1,8 @@
 // A directory whose checksums are right but whose fields lie: only the reader's own checks can refuse it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-
 #include <functional>
 #include <limits>
 
@@ -50,6 +50,43 @@ class LyingDirectory : public ::testing::Test {
   Directory directory_;
   uint64_t directoryOffset_ = 0;
 };
+
+TEST_F(LyingDirectory, ErrorsOfAWayAreAllKnownOrNone) {
+  const auto known = [](ErrorTable & errors, ErrorWay way) -> auto& { return errors.codes[static_cast<size_t>(way)]; };
+  Directory whole = directory_;
+  for (CellRecord& cell : whole.cells) {
+    if (cell.meshTriangles > 0) known(cell.errors, ErrorWay::mesh) = {1, 255, 161, 7};
+    if (cell.viewPageCount > 0) known(cell.errors, ErrorWay::blended) = {9, 8, 7, 6};
+  }
+  const Result<PackFile> pack = reopen(whole);
+  ASSERT_TRUE(pack.has_value()) << pack.error().message;
+  for (size_t i = 0; i < whole.cells.size(); ++i) EXPECT_EQ(pack->directory().cells[i].errors, whole.cells[i].errors);
+
+  const auto viewless =
+      std::find_if(whole.cells.begin(), whole.cells.end(), [](auto& c) { return c.viewPageCount == 0; });
+  expectRefused(
+      "known at three scales",
+      [&](Directory& d) {
+        known(d.cells[1].errors, ErrorWay::mesh) = {1, 2, 0, 4};
+      },
+      "errors of way 0");
+  if (viewless != whole.cells.end()) {
+    const auto index = static_cast<size_t>(viewless - whole.cells.begin());
+    expectRefused(
+        "of views that are not there",
+        [&](Directory& d) {
+          known(d.cells[index].errors, ErrorWay::depthCorrected) = {1, 2, 3, 4};
+        },
+        "no errors of way 1");
+  }
+  expectRefused(
+      "without measuring",
+      [&](Directory& d) {
+        d.model.settings.measure = Measure::off;
+        known(d.cells[1].errors, ErrorWay::mesh) = {1, 2, 3, 4};
+      },
+      "no errors of way 0");
+}
 
 TEST_F(LyingDirectory, IsAcceptedWhenItTellsTheTruth) {
   const Result<PackFile> pack = reopen(directory_);

@@ -102,7 +102,7 @@ void appendPage(Text& pack, const Bytes& page, std::vector<std::pair<uint64_t, u
   places.emplace_back(offset, hashBytes(std::span(pack.bytes).subspan(offset)));
 }
 
-Bytes settings() { return Text().u32({42, 16, 1, 10, 2, 0xffffffff, 2, 0}).u64({kF64Two, 0, 0, 0}).bytes; }
+Bytes settings() { return Text().u32({42, 16, 1, 10, 2, 0xffffffff, 2, 0x100}).u64({kF64Two, 0, 0, 0}).bytes; }
 
 Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
                 const std::vector<std::pair<uint64_t, uint64_t>>& places) {
@@ -114,7 +114,11 @@ Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
   text.u32({0});
   text.u32({0});
   text.u32({1});
-  text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1, 1}).u32({0, 0, 0, 4, 4, 0}).u64({2, 2, 0});
+  text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1, 1})
+      .u32({0, 0, 0, 4, 4, 0})
+      .u64({2, 2, 0})
+      .raw({161, 145, 1, 255})
+      .zeros(8);
   text.u32({2});
   text.u32({1, 0, 0, geometry.size(), 4 * (4 * 4 + 6), 0}).u64({places[0].first, places[0].second});
   text.u32({2, 0, group, views.size(), 5 * 5, 0}).u64({places[1].first, places[1].second});

@@ -239,7 +239,8 @@ TEST(PackPageSource, ServesThePagesOfAPack) {
                         .firstGeometryPage = 0,
                         .geometryPageCount = 1,
                         .firstViewPage = 1,
-                        .viewPageCount = 1};
+                        .viewPageCount = 1,
+                        .errors = {}};
   GeometryPage geometry;
   geometry.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 4}};
   geometry.indices = {0, 1, 2};

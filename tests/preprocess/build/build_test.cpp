@@ -70,6 +70,7 @@ BuildOptions smallLeaves() {
   options.settings.leafTriangles = 600;
   options.settings.imageSize = 64;
   options.settings.samples = 4;
+  options.settings.measure = Measure::off;  // measured_build_test.cpp
   return options;
 }
 

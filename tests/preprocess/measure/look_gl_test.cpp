@@ -106,7 +106,8 @@ TEST(Look, showsTheSameOnTheCpuAsInTheRenderer) {
         const FrameImage gl = drawnFromAfar(drawn, toward, edge, kind);
         const Apart same = apart(gl, views.from(toward, edge, kind));
         EXPECT_GT(same.shown, 20);
-        EXPECT_LT(same.mean, 0.3) << edge << " pixels";
+        // Where texels are a quarter of a pixel, eighths of a level of detail and of a texel show.
+        EXPECT_LT(same.mean, edge < 32 ? 0.9 : 0.3) << edge << " pixels";
         // A picture from elsewhere is far off: the bound means something.
         const glm::dvec3 beside = glm::normalize(toward + 0.05 * viewFrame(toward).right);
         EXPECT_GT(apart(gl, views.from(beside, edge, kind)).mean, 3 * same.mean);

@@ -75,6 +75,18 @@ class RandomTree {
       record.firstGeometryPage = 0;
       record.geometryPageCount = 1;
     }
+    if (record.triangles % 2 == 0) measure(record);
+  }
+  // Errors of any shape.
+  static void measure(CellRecord& record) {
+    for (size_t scale = 0; scale < kErrorScales; ++scale) {
+      const auto code = [&](uint64_t factor) {
+        return static_cast<uint8_t>(100 + (record.triangles * factor + 29 * scale) % 100);
+      };
+      if (record.meshTriangles > 0) record.errors.codes[static_cast<size_t>(ErrorWay::mesh)][scale] = code(31);
+      if (record.viewPageCount > 0)
+        record.errors.codes[static_cast<size_t>(ErrorWay::depthCorrected)][scale] = code(47);
+    }
   }
   double part() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
@@ -134,10 +146,10 @@ class Oracle {
 
   double loss(uint32_t cell, Representation representation) const {
     const CellRecord& record = directory_.cells[cell];
-    return areaPixels(cell) *
-           (representation == Representation::impostor
-                ? impostorLoss(record, texelPixels(cell))
-                : meshLoss(record, meshPixels(cell), static_cast<double>(record.triangles) / areaPixels(cell)));
+    return areaPixels(cell) * (representation == Representation::impostor
+                                   ? impostorLoss(record, texelPixels(cell))
+                                   : meshLoss(record, texelPixels(cell), meshPixels(cell),
+                                              static_cast<double>(record.triangles) / areaPixels(cell)));
   }
   // And the price of its time.
   double cost(uint32_t cell, Representation representation) const {
@@ -182,7 +194,7 @@ class Oracle {
     }
     const bool views = record.firstViewPage != kNone;
     if (views && (isFar(cell) || record.childCount == 0)) offer(0, cost(cell, Representation::impostor));
-    if (views && isFar(cell)) return least;
+    if (views && isClosed(cell)) return least;
     if (record.childCount == 0 || meshAllowed(cell)) offer(record.meshTriangles, cost(cell, Representation::mesh));
     if (record.childCount == 0) return least;
     std::vector<double> below(most + 1, INFINITY);
@@ -209,6 +221,11 @@ class Oracle {
     return texelPixels(cell) <= settings_.texelPixels &&
            glm::length(camera_.position - cellCentre(grid, key)) > std::sqrt(3.0) * cellHalfSide(grid, key);
   }
+  // Drawn by its views, whatever else there is.
+  bool isClosed(uint32_t cell) const {
+    const bool measured = directory_.cells[cell].errors.knows(ErrorWay::depthCorrected);
+    return isFar(cell) && !(measured && texelPixels(cell) > settings_.texelPixels / 2);
+  }
   double pixels(uint32_t cell, double length) const {
     const Grid& grid = directory_.model.grid;
     const GridBox& box = directory_.cells[cell].content;
@@ -219,7 +236,7 @@ class Oracle {
   // A mean silhouette of the content, or of what is drawn below.
   double areaPixels(uint32_t cell) const {
     const CellRecord& record = directory_.cells[cell];
-    if (record.childCount > 0 && !(record.firstViewPage != kNone && isFar(cell))) {
+    if (record.childCount > 0 && !(record.firstViewPage != kNone && isClosed(cell))) {
       double sum = 0;
       for (uint32_t child = 0; child < record.childCount; ++child)
         if (visible_[record.firstChild + child]) sum += areaPixels(record.firstChild + child);

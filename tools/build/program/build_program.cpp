@@ -28,6 +28,7 @@ struct Arguments {
   std::string packBudget;
   std::string budgetRule = "worth";
   std::string simplifier = "collapse";
+  std::string measure = "sample";
   std::string up;
   std::string unit;
   bool mpi = false;
@@ -66,6 +67,10 @@ void addContentOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--view-error", settings.viewError,
                  "how far a channel of a view's texel (coverage, colour, depth, normal) may be from what was baked, in "
                  "255ths, 0 to 8: more takes fewer bytes; 0: lossless")
+      ->capture_default_str();
+  app.add_option("--measure", arguments.measure,
+                 "cells whose image errors are measured, for the others' to be expected by: a sample, all, or none")
+      ->check(CLI::IsMember({"sample", "all", "off"}))
       ->capture_default_str();
   app.add_option("--simplifier", arguments.simplifier,
                  "what makes the meshes of inner cells: edge collapses, or OpenMesh's decimater, which is slower")
@@ -140,6 +145,63 @@ void addLeftOut(BuildSummary& summary, const BuildReport& report) {
   for (const auto& [reason, count] : report.skipped) summary.leftOut.push_back({"triangles", reason, count, {}});
 }
 
+constexpr std::array<const char*, kErrorWays> kWayNames = {"mesh", "depthCorrected", "blended"};
+
+void addExpected(BuildSummary& summary, const MeasureReport& measured) {
+  for (size_t way = 0; way < kErrorWays; ++way) {
+    BuildSummary::Expected row{kWayNames[way], measured.apart[way][0].cells, {}, {}, {}};
+    for (size_t scale = 0; scale < kErrorScales; ++scale) {
+      row.scales.push_back(fmt::format("{} px", kErrorTexelPixels[scale]));
+      row.median.push_back(measured.apart[way][scale].median);
+      row.ninetieth.push_back(measured.apart[way][scale].ninetieth);
+    }
+    if (row.cells > 0) summary.expected.push_back(std::move(row));
+  }
+}
+
+void addAlternatives(BuildSummary& summary, const MeasureReport& measured) {
+  if (measured.cells == 0) return;
+  for (size_t set = 0; set < kAlternativeViews.size(); ++set)
+    for (size_t size = 0; size < kAlternativeSizes.size(); ++size) {
+      const AlternativeMean& mean = measured.alternatives[set][size];
+      summary.alternatives.push_back(
+          {kAlternativeViews[set], kAlternativeSizes[size], mean.depthCorrected, mean.blended, mean.bytes});
+    }
+}
+
+nlohmann::ordered_json alternativesJson(const MeasureReport& measured) {
+  BuildSummary summary;
+  addAlternatives(summary, measured);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const BuildSummary::Alternative& row : summary.alternatives)
+    json.push_back({{"views", row.views},
+                    {"imageSize", row.imageSize},
+                    {"depthCorrected", row.errorA},
+                    {"blended", row.errorB},
+                    {"bytesOfCell", row.bytes}});
+  return json;
+}
+
+nlohmann::ordered_json measuredJson(const BuildResult& result) {
+  const MeasureReport& measured = result.measured;
+  nlohmann::ordered_json expected = nlohmann::ordered_json::array();
+  for (size_t way = 0; way < kErrorWays; ++way)
+    for (size_t scale = 0; scale < kErrorScales; ++scale) {
+      const ExpectedApart& apart = measured.apart[way][scale];
+      if (apart.cells == 0) continue;
+      expected.push_back({{"way", kWayNames[way]},
+                          {"texelPixels", kErrorTexelPixels[scale]},
+                          {"cells", apart.cells},
+                          {"medianOff", apart.median},
+                          {"ninetiethOff", apart.ninetieth}});
+    }
+  return {{"cells", measured.cells},
+          {"cpuSeconds", result.cpuSeconds.measure},
+          {"unit", measured.unit},
+          {"expected", expected},
+          {"alternatives", alternativesJson(measured)}};
+}
+
 BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
   const Directory& directory = result.directory;
   const BuildReport& report = directory.report;
@@ -156,7 +218,8 @@ BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
       {"partition", seconds.partition, {}, report.inputTriangles, "triangles", {}},
       {"lod", seconds.lod, result.cpuSeconds.lod, report.inputTriangles, "triangles", {}},
       {"bake", seconds.bake, result.cpuSeconds.bake, report.viewsBaked, "views", {}},
-      {"encode", seconds.encode, result.cpuSeconds.encode, report.viewsKept, "views", report.impostorBytes}};
+      {"encode", seconds.encode, result.cpuSeconds.encode, report.viewsKept, "views", report.impostorBytes},
+      {"measure", seconds.measure, result.cpuSeconds.measure, result.measured.cells, "cells", {}}};
   summary.seconds = seconds.total;
   summary.cpuSeconds = processCpuSeconds();
   summary.parts = {{"geometry", report.geometryBytes}, {"impostors", report.impostorBytes}};
@@ -165,6 +228,8 @@ BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
   summary.peakRssBytes = peakRssBytes();
   summary.memoryLimit = options.memoryBytes;
   addLeftOut(summary, report);
+  addExpected(summary, result.measured);
+  addAlternatives(summary, result.measured);
   return summary;
 }
 
@@ -210,6 +275,9 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   if (arguments.mpi && crew == nullptr) return becomeMpi(argv);
   BuildSettings& settings = arguments.options.settings;
   settings.simplifier = arguments.simplifier == "openmesh" ? Simplifier::openmesh : Simplifier::collapse;
+  settings.measure = arguments.measure == "off"   ? Measure::off
+                     : arguments.measure == "all" ? Measure::all
+                                                  : Measure::sample;
   settings.budgetRule = arguments.budgetRule == "triangles" ? BudgetRule::triangles : BudgetRule::worth;
   FARCELL_TRY(chooseMemory(arguments));
   FARCELL_ASSIGN(const uint64_t leafTriangles, parseCount(arguments.leafTriangles));
@@ -233,6 +301,7 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   const BuildTimes times{seconds.read, seconds.partition, seconds.lod, seconds.bake, seconds.encode, seconds.total};
   const uint64_t peakRss = peakRssBytes();
   nlohmann::ordered_json report = buildReportJson(result.directory, result.packBytes, &times, &peakRss);
+  report["measured"] = measuredJson(result);
   report["textures"] = texturesJson(result.textures);
   report["files"] = filesJson(result.files);
   std::fputs(jsonText(report).c_str(), stdout);

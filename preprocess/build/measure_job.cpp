@@ -1,0 +1,165 @@
+#include "preprocess/build/measure_job.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "cache/base/interrupt.h"
+#include "preprocess/build/bake_job.h"
+#include "preprocess/build/soup.h"
+#include "preprocess/encode/view_image.h"
+
+namespace farcell {
+namespace {
+
+Result<CellSoup> soupOf(const SoupSource& source, uint32_t cell, const std::vector<uint32_t>& leaves) {
+  CellSoup soup;
+  for (const uint32_t leaf : leaves) FARCELL_TRY(source.append(cell, leaf, soup, [] { return checkInterrupt(); }));
+  return soup;
+}
+
+// The mesh as the pack has it.
+Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell) {
+  const GridBox cube = cellBox(context.model.grid, context.tree.cells[cell].key);
+  const auto side = static_cast<uint32_t>(cube.max.x - cube.min.x);
+  CellSoup soup;
+  const uint32_t parts = context.store.meshFigures(cell).parts;
+  for (uint32_t part = 0; part < parts; ++part) {
+    FARCELL_ASSIGN(const CodedPart coded, context.store.part(cell, part));
+    FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(coded.bytes, {side, coded.decodedBytes}));
+    const auto& [red, green, blue] = kDefaultAlbedo;
+    const uint32_t plain = red | uint32_t{green} << 8 | uint32_t{blue} << 16;
+    for (size_t i = 0; i < page.indices.size(); ++i) {
+      const uint32_t vertex = page.indices[i];
+      const glm::dvec3 local = glm::dvec3(page.positions[vertex]) * (2.0 / side) - 1.0;
+      soup.x[i % 3].push_back(static_cast<float>(local.x));
+      soup.y[i % 3].push_back(static_cast<float>(local.y));
+      soup.z[i % 3].push_back(static_cast<float>(local.z));
+      soup.colours[i % 3].push_back(page.colours.empty() ? plain : page.colours[vertex]);
+      if (!page.normals.empty()) soup.normals[i % 3].push_back(page.normals[vertex]);
+    }
+  }
+  return soup;
+}
+
+LocalBox contentOf(const BuildContext& context, const CellRecord& cell) {
+  const GridBox cube = cellBox(context.model.grid, cell.key);
+  const glm::dvec3 centre = glm::dvec3(cube.min + cube.max) * 0.5;
+  const double half = 0.5 * (cube.max.x - cube.min.x);
+  return {glm::vec3((glm::dvec3(cell.content.min) - centre) / half),
+          glm::vec3((glm::dvec3(cell.content.max) - centre) / half)};
+}
+
+// Three soups; the finest picture's samples, and a few pictures with views as images and as floats.
+uint64_t bytesOfMeasuring(const BuildContext& context, uint64_t triangles) {
+  constexpr uint64_t kEdge = kMaxMeasuredEdge;
+  const uint64_t triangle = 4 * (12 + (context.model.hasNormals ? 3 : 0) + (context.hasTextures ? 7 : 0));
+  const uint64_t samples = std::max(16, context.model.settings.samples);
+  return 5 * triangles * triangle + kEdge * kEdge * (16 * samples + 40 + 8 * 16) +
+         static_cast<uint64_t>(context.model.settings.views) * kEdge * kEdge / 4;
+}
+
+// The views of a cell as its pack will hold them; those that visitors never get are baked now.
+class StoredViews {
+ public:
+  StoredViews(const BuildContext& context, uint32_t cell, const CellSoup& grown, TextureSampler* textures)
+      : context_(context), cell_(cell), grown_(grown), textures_(textures) {}
+
+  Result<> load() {
+    FARCELL_ASSIGN(views_, context_.store.views(cell_));
+    return {};
+  }
+
+  Result<ViewImage> operator()(int view) const {
+    const BuildSettings& settings = context_.model.settings;
+    if (!context_.wanted(cell_, view)) return baked(view);
+    const auto number = static_cast<uint32_t>(view);
+    const auto found = std::find_if(views_.begin(), views_.end(), [&](const auto& v) { return v.view == number; });
+    if (found == views_.end()) return ViewImage{.view = number, .rgba = {}, .depth = {}, .normal = {}};
+    const std::vector<std::byte> page = viewPageOf(std::span(&*found, 1)).bytes;
+    FARCELL_ASSIGN(ViewPage decoded, decodeViewPage(page, {static_cast<uint32_t>(settings.views),
+                                                           static_cast<uint32_t>(settings.imageSize), UINT64_MAX}));
+    return std::move(decoded.views.at(0));
+  }
+
+ private:
+  ViewImage baked(int view) const {
+    const BuildSettings& settings = context_.model.settings;
+    ViewBaker baker({settings.imageSize, settings.samples, sunDirection(settings.up), false}, textures_);
+    BakedView front, back;
+    baker.begin(viewFrame(context_.viewpoints.directions()[static_cast<size_t>(view)]));
+    baker.add(grown_);
+    baker.finish(front, back);
+    return quantisedView(front, static_cast<uint32_t>(view), settings.imageSize);
+  }
+
+  const BuildContext& context_;
+  const uint32_t cell_;
+  const CellSoup& grown_;
+  TextureSampler* const textures_;
+  std::vector<EncodedView> views_;
+};
+
+}  // namespace
+
+std::vector<MeasureJob> measureJobs(const CellTree& tree, Measure measure) {
+  const auto& cells = tree.cells;
+  std::vector<uint32_t> eligible;
+  for (uint32_t cell = 0; cell < cells.size(); ++cell)
+    if (cells[cell].triangles > 0 && cells[cell].triangles <= kMaxMeasuredTriangles && !cheaperAsTriangles(cells[cell]))
+      eligible.push_back(cell);
+  std::stable_sort(eligible.begin(), eligible.end(), [&](uint32_t a, uint32_t b) {
+    if (cells[a].key.level != cells[b].key.level) return cells[a].key.level < cells[b].key.level;
+    return cells[a].triangles < cells[b].triangles;
+  });
+  const size_t wanted =
+      measure == Measure::all ? eligible.size() : std::clamp(cells.size() / 50, kLeastMeasured, kMostMeasured);
+  const size_t count = std::min(eligible.size(), wanted);
+  std::vector<MeasureJob> jobs;
+  for (size_t i = 0; i < count; ++i)
+    jobs.push_back({eligible[(2 * i + 1) * eligible.size() / (2 * count)], i % 4 == 0});
+  return jobs;
+}
+
+Result<> measureStored(const BuildContext& context, const MeasureJob& job, TextureSampler* textures) {
+  FARCELL_TRY(checkInterrupt());
+  const uint32_t cell = job.cell;
+  const CellRecord& record = context.tree.cells[cell];
+  FARCELL_ASSIGN(const MemoryGate::Share share,
+                 context.gate.take(bytesOfMeasuring(context, record.triangles), "measuring a cell"));
+  const Lap lap(context.clock.measureNs);
+  const SoupSource source(context.model, context.tree, context.partition);
+  FARCELL_ASSIGN(const CellSoup grown, soupOf(source, cell, source.leavesInside(cell)));
+  FARCELL_ASSIGN(const CellSoup alone, soupOf(source, cell, source.leavesBelow(cell)));
+  FARCELL_ASSIGN(const CellSoup mesh, meshSoup(context, cell));
+  StoredViews views(context, cell, grown, textures);
+  FARCELL_TRY(views.load());
+  const BuildSettings& settings = context.model.settings;
+  FARCELL_ASSIGN(const CellErrors errors,
+                 measureCell({contentOf(context, record), alone, grown, mesh.size() > 0 ? &mesh : nullptr, textures},
+                             [&](int view) { return views(view); },
+                             {context.viewpoints, settings.imageSize, settings.samples, sunDirection(settings.up),
+                              settings.viewError, job.alternatives}));
+  if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
+  return context.store.addErrors(cell, errors);
+}
+
+std::vector<ViewFigures> viewFigures(size_t cells, std::span<const ViewCost> costs) {
+  std::vector<ViewFigures> figures(cells);
+  for (const ViewCost& cost : costs) {
+    if (cost.texels == 0) continue;
+    ViewFigures& cell = figures[cost.cell];
+    ++cell.views;
+    cell.bytes += cost.bytes;
+    cell.coveredTexels += cost.covered;
+    cell.edgeTexels += cost.edges;
+  }
+  for (ViewFigures& cell : figures) {
+    if (cell.views == 0) continue;
+    cell.bytes /= cell.views;
+    cell.coveredTexels /= cell.views;
+    cell.edgeTexels /= cell.views;
+  }
+  return figures;
+}
+
+}  // namespace farcell

@@ -1,0 +1,1 @@
+farcell_program(tests/bench/errors bench_errors DEPS farcell_cache_pack)
