@@ -42,7 +42,7 @@ struct CellRecord {
   uint32_t geometryPageCount = 0;
   uint32_t firstViewPage = kNone;  // pages of views, by rising group; kNone when no views were kept
   uint32_t viewPageCount = 0;
-  ErrorTable errors;  // of its mesh and of its views, where they are there and were measured
+  ErrorTable errors = {};  // of its mesh and of its views, where they are there and were measured
 };
 
 // A mesh of more triangles than fit in one page is cut into parts: each but the last has exactly as many as these.

@@ -150,16 +150,14 @@ inline Directory fullDirectory() {
                         .content = {GridPoint(0), GridPoint((1 << 19) + 7, 1000, 0)},
                         .triangles = 2,
                         .firstViewPage = 0,
-                        .viewPageCount = 2,
-                        .errors = {}};
+                        .viewPageCount = 2};
   directory.cells[1] = {.key = {1, 0, 0, 0},
                         .parent = 0,
                         .content = {GridPoint(0), GridPoint(1000, 1000, 0)},
                         .triangles = 1,
                         .meshTriangles = 1,
                         .firstGeometryPage = 2,
-                        .geometryPageCount = 1,
-                        .errors = {}};
+                        .geometryPageCount = 1};
   directory.cells[2] = {.key = {1, 1, 0, 0},
                         .parent = 0,
                         .content = {GridPoint(1 << 19, 0, 0), GridPoint((1 << 19) + 7, 7, 0)},
@@ -168,8 +166,7 @@ inline Directory fullDirectory() {
                         .firstGeometryPage = 3,
                         .geometryPageCount = 1,
                         .firstViewPage = 4,
-                        .viewPageCount = 1,
-                        .errors = {}};
+                        .viewPageCount = 1};
   return directory;
 }
 

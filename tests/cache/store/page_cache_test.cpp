@@ -239,8 +239,7 @@ TEST(PackPageSource, ServesThePagesOfAPack) {
                         .firstGeometryPage = 0,
                         .geometryPageCount = 1,
                         .firstViewPage = 1,
-                        .viewPageCount = 1,
-                        .errors = {}};
+                        .viewPageCount = 1};
   GeometryPage geometry;
   geometry.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 4}};
   geometry.indices = {0, 1, 2};
