@@ -166,7 +166,9 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
   };
   Cut cut = select(nullptr);
   const bool known = settings.samplesPerPixel == 1 || multisamples.size() == kMultisamples;
-  if (!settings.occlusion || selection.mode == RenderMode::full || !known) return cut;
+  const bool wanted = settings.occlusion && selection.mode != RenderMode::full;
+  // Flat impostors reach beyond the boxes of their cells.
+  if (!wanted || !known || settings.kind == ImpostorKind::flat) return cut;
   if (settings.occlusionMustPay && occlusionRest.resting()) return cut;
   const Stopwatch watch;
   uint64_t read = 0;
