@@ -24,7 +24,7 @@ struct RenderSettings {
   ImpostorKind kind = ImpostorKind::depthCorrected;
   SelectionSettings selection;  // its costs are those of `kind` and samples here
   CostModel costs = kDefaultCosts;
-  bool occlusion = true;         // cells that nearer triangles hide are not drawn; mode `full` draws them all the same
+  bool occlusion = false;        // cells that nearer triangles hide are not drawn; mode `full` draws them all the same
   bool occlusionMustPay = true;  // only where that is expected to save more time than the search takes
   Show show = Show::picture;
 };

@@ -35,7 +35,7 @@ struct EvaluateOptions {
   int referenceSamples = 64;
   SelectionSettings selection;  // level rule and triangle budget of every renderer
   bool recalibrate = false;     // machine costs, for the time budget
-  bool occlusion = true;        // RenderSettings::occlusion of every renderer
+  bool occlusion = false;       // RenderSettings::occlusion of every renderer
   double lodPixels = 1;         // geometric error of the renderer lod
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;

@@ -16,7 +16,7 @@ struct Words {
   std::string triangleBudget = "1M";
   std::string background = "179,204,230";
   uint64_t residentMib = 1024;
-  std::string occlusion = "on";
+  std::string occlusion = "off";
 };
 
 Result<> run(EvaluateOptions& options, const Words& words) {
@@ -45,7 +45,7 @@ void addSelectionOptions(CLI::App& app, EvaluateOptions& options, Words& words) 
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   app.add_flag("--recalibrate", options.recalibrate, "measure again what drawing costs on this machine");
-  app.add_option("--occlusion", words.occlusion, "leave out what nearer triangles hide; off: draw it all the same")
+  app.add_option("--occlusion", words.occlusion, "leave out what nearer triangles hide; on is an experiment")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--texel-pixels", options.selection.texelPixels,

@@ -52,7 +52,7 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   app.add_flag("--recalibrate", options.recalibrate, "measure again what drawing costs on this machine");
-  app.add_option("--occlusion", options.occlusion, "leave out what nearer triangles hide; off: draw it all the same")
+  app.add_option("--occlusion", options.occlusion, "leave out what nearer triangles hide; on is an experiment")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--texel-pixels", options.texelPixels,

@@ -25,7 +25,7 @@ struct DrawOptions {
   std::string triangleBudget = "1M";
   double timeBudgetMs = 0;
   bool recalibrate = false;
-  std::string occlusion = "on";
+  std::string occlusion = "off";
   double texelPixels = kTexelPixels;
   double meshPixels = kMeshPixels;
   int samples = 4;
