@@ -29,7 +29,8 @@ TEST(OctahedralGrid, AFramesOwnDirectionIsItsAlone) {
   }
 }
 
-// Half the widest step between neighbours, about 11 degrees, bounds how far the nearest of the three is.
+// The grid is widest on the diagonals of its faces: no direction is farther than 9.2 degrees from the nearest frame,
+// nor 18.5 from the farthest of its three.
 TEST(OctahedralGrid, TheThreeFramesLieAroundTheDirection) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -43,11 +44,11 @@ TEST(OctahedralGrid, TheThreeFramesLieAroundTheDirection) {
       EXPECT_GE(found.weights[k], -1e-12);
       sum += found.weights[k];
       const double angle = std::acos(std::min(1.0, glm::dot(d, octahedralDirection(found.frames[k]))));
-      EXPECT_LT(angle * 180 / std::numbers::pi, 17) << "seed 3, direction " << i;
+      EXPECT_LT(angle * 180 / std::numbers::pi, 19) << "seed 3, direction " << i;
       nearest = std::min(nearest, angle);
     }
     EXPECT_NEAR(sum, 1, 1e-12);
-    EXPECT_LT(nearest * 180 / std::numbers::pi, 9);
+    EXPECT_LT(nearest * 180 / std::numbers::pi, 10);
   }
 }
 
