@@ -19,10 +19,13 @@ namespace farcell {
 struct RenderSettings {
   int width = 1280;
   int height = 720;
-  int samplesPerPixel = 4;  // of triangles: 1, 4 (multisampling) or 16 (four jittered passes of 4)
+  int samplesPerPixel = 4;  // 1, 4 (multisampling) or 16 (four jittered passes of 4)
   ImpostorKind kind = ImpostorKind::depthCorrected;
   SelectionSettings selection;
   Show show = Show::picture;
+  bool handOver =
+      true;  // of pictures of 4 samples or more: cells change how they are drawn without a pop (hand_over.h)
+  bool operator==(const RenderSettings&) const = default;
 };
 
 struct FrameStats {
@@ -35,6 +38,7 @@ struct FrameStats {
   uint64_t texels = 0;              // of the views drawn (cropped rectangles)
   uint64_t bytesRead = 0;           // from the pack for this frame
   std::vector<LegendEntry> legend;  // of RenderSettings::show; empty for the picture
+  bool settled = true;              // of `show`: the same once more would show the same picture
 };
 
 // Draws one pack. All calls on the thread of the context.
@@ -52,7 +56,8 @@ class Renderer {
   Result<FrameStats> draw(const Camera& camera, const RenderSettings& settings, FrameImage* image);
 
   // Draws over the backdrop into the default framebuffer of the context's window, whose size is that of `settings`, and
-  // does not wait for the GPU. Fails as `draw` does.
+  // does not wait for the GPU. Where 4 samples are asked for, frames of a camera that rests gather 16, a pass a frame,
+  // until the picture has `settled`. Fails as `draw` does.
   Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
   // The picture that `show` would show, alpha 255, read back.
   Result<FrameImage> capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);

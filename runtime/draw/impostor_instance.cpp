@@ -57,7 +57,7 @@ shared::ImpostorView impostorView(const DirectedView& directed, glm::dvec3 eye, 
 }  // namespace
 
 shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const ImpostorViews& views,
-                                              const FrameCamera& camera) {
+                                              uint8_t shares, const FrameCamera& camera) {
   const double texel = texelSize(model.settings.imageSize);
   const GridBox cube = cellBox(model.grid, cell.key);
   const glm::dvec3 centreSteps = glm::dvec3(cube.min + cube.max) * 0.5;
@@ -68,7 +68,7 @@ shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellReco
   shared::ImpostorInstance instance;
   instance.centre = plane(centreSteps - camera.eyeSteps, halfSteps);
   instance.boxMin = plane((glm::dvec3(cell.content.min) - centreSteps) / halfSteps, texel);
-  instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, 0);
+  instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, shares);
   instance.eye = plane(eye, std::log2(camera.pixelAngle / (texel * halfRootSides)) + kLodBias);
   instance.tint = glm::vec4(0);
   for (size_t i = 0; i < views.size(); ++i) instance.views[i] = impostorView(views[i], eye, texel);

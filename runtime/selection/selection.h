@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "cache/pack/directory.h"
@@ -50,7 +51,15 @@ struct SelectionSettings {
   uint64_t triangleBudget = 500'000;
   double texelPixels = kTexelPixels;  // that an impostor's texel may measure
   double meshPixels = kMeshPixels;    // that a simplified mesh's geometric error may measure; 0: no simplified meshes
+  // How the cut of a share differs from the others' (hand_over.h).
+  double detail = 1;         // a pixel counts as so many along its edge
+  glm::dvec3 lean{0, 0, 0};  // added to the unit direction from which the nearest view is chosen
+  bool operator==(const SelectionSettings&) const = default;
 };
+
+// A cut is for all of a pixel's samples or for some: its shares.
+inline constexpr int kShares = 4;
+inline constexpr uint8_t kAllShares = (1 << kShares) - 1;
 
 struct CutEntry {
   uint32_t cell = 0;
@@ -62,6 +71,7 @@ struct CutEntry {
   Viewpoints::Triple blend{};  // kind B: the views of the triangle around the same direction
   // Of how it is drawn, pixels, at the nearest point of the content; infinite inside its box.
   double errorPixels = 0;
+  uint8_t shares = kAllShares;  // a bit for each share that the entry is part of
 };
 
 // Entries lie front to back: of two, the later one can never hide the earlier (octree order seen from the eye).

@@ -16,8 +16,9 @@ layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(binding = 0) uniform sampler2DArray colours;
 layout(binding = 1) uniform sampler2DArray depths;
 
-in vec3 boxPoint;
-in vec3 viewPoint[VIEWS];
+sample in vec3 boxPoint;
+sample in vec3 viewPoint[VIEWS];
+flat in int shares;
 flat in vec4 eye;
 flat in vec3 boxMin, boxMax;
 flat in vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
@@ -36,6 +37,7 @@ const int kBisections = 5;
 const float kEnteredBehindTexels = 6.0;  // how far below the surface a ray may enter and still be a hit
 const float kSurfaceTexels = 3.0;        // a crossing that ends farther below the depth image is a jump of it
 const float kEmptyAlpha = 0.004;
+const float kBlurredCoverage = 0.2;
 const int kAttempts = 6;                 // hits looked at when the nearest ones are empty or jumps
 const float kAgreeTexels = 3.0;          // a view agrees where its depth is that near; at twice that, not at all
 const float kLeastWeight = 0.02;         // of the view a point was found in
@@ -74,6 +76,13 @@ float depthValue(vec2 texel, float layer) {
 vec4 colourAt(vec2 texel, float layer, float s) {
   float lod = eye.w - frame.image.w + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
   return textureLod(colours, vec3(texel * frame.image.y, layer), lod);
+}
+
+// Texels and their filter widen an edge on both sides: coverage near 0 and near 1 is taken as that, so that its mean
+// across the edge stays.
+vec4 sharpened(vec4 seen) {
+  float coverage = clamp((seen.a - kBlurredCoverage) / (1.0 - 2.0 * kBlurredCoverage), 0.0, 1.0);
+  return seen * (coverage / max(seen.a, kEmptyAlpha));
 }
 
 // Looks through one view. point: boxPoint in its texture space; from: its eye, w: edge of a texel in depth values;
@@ -136,7 +145,7 @@ int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, inout vec4 foun
     bool onSurface = depthBelow < kSurfaceTexels * texel;
     if (onSurface || result == kNothing) {
       vec2 hit = point.xy + s * along.xy;
-      vec4 seen = colourAt(hit, low.w, s);
+      vec4 seen = sharpened(colourAt(hit, low.w, s));
       if (seen.a > kEmptyAlpha) {
         found = seen;
         place = vec3(hit, s);
@@ -177,6 +186,8 @@ Found find(vec3 local, vec3 points[VIEWS]) {
     float ignored = kNowhere;
     if (look(points[i], viewEye[i], viewMin[i], viewMax[i].xyz, inBox, other.seen, other.place, ignored) == kSurface)
       found = other;
+    else if (VIEWS == 2 && ignored == kNowhere)
+      found.seen = found.jump = vec4(0.0);  // all of the ray lies before what this view saw
   }
   return found;
 }
@@ -220,24 +231,11 @@ vec4 seenThrough(vec3 local, vec3 points[VIEWS]) {
 #endif
 }
 
-// Where the object's outline differs from the view's, no texel knows how much of the pixel it covers: rays do.
-const vec2 kRayOffsets[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(0.125, 0.375), vec2(-0.375, 0.125));
-
+// Once a sample: where the object's outline differs from the view's, no texel knows how much of a pixel it covers, and
+// what covers a part of it covers the same part of all behind.
 void main() {
-  vec3 localX = dFdx(boxPoint), localY = dFdy(boxPoint);
-  vec3 pointX[VIEWS], pointY[VIEWS];
-  for (int i = 0; i < VIEWS; ++i) {
-    pointX[i] = dFdx(viewPoint[i]);
-    pointY[i] = dFdy(viewPoint[i]);
-  }
-  colour = vec4(0.0);
-  int rays = int(frame.image.z);
-  for (int ray = 0; ray < rays; ++ray) {
-    vec2 offset = rays == 1 ? vec2(0.0) : kRayOffsets[ray];
-    vec3 points[VIEWS];
-    for (int i = 0; i < VIEWS; ++i) points[i] = viewPoint[i] + offset.x * pointX[i] + offset.y * pointY[i];
-    colour += seenThrough(boxPoint + offset.x * localX + offset.y * localY, points);
-  }
-  colour *= 1.0 / frame.image.z;
+  if ((shares >> gl_SampleID & 1) == 0) discard;
+  colour = seenThrough(boxPoint, viewPoint);
+  if (colour.a == 0.0) discard;
   impostorCoverage = colour.aaaa;
 }
