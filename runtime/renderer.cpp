@@ -85,7 +85,7 @@ struct Renderer::Impl {
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
                     glm::dvec2 jitterPx, FrameStats& stats);
   Result<FrameStats> drawOver(const Shown& shown, Passes passes, GLuint framebuffer);
-  Result<FrameStats> showNext(Shown next);
+  Result<FrameStats> showNext(Shown next, GLuint framebuffer);
 
   const PackFile& pack;
   const Viewpoints viewpoints;
@@ -167,8 +167,7 @@ Result<FrameStats> Renderer::Impl::drawOver(const Shown& picture, Passes passes,
 }
 
 // While the camera rests, the passes of 16 samples take the place of the 4 that a moving one is shown, one a frame.
-Result<FrameStats> Renderer::Impl::showNext(Shown next) {
-  constexpr GLuint kDefaultFramebuffer = 0;
+Result<FrameStats> Renderer::Impl::showNext(Shown next, GLuint framebuffer) {
   const RenderSettings& settings = next.settings;
   FARCELL_TRY(checkSettings(settings));
   const bool same = shown == next, settled = same && restingFrames == kPasses;
@@ -176,7 +175,7 @@ Result<FrameStats> Renderer::Impl::showNext(Shown next) {
   shown = next;
   FrameStats stats;
   if (settings.samplesPerPixel != kMultisamples || restingFrames == 0) {
-    FARCELL_ASSIGN(stats, drawOver(next, {0, framesOf(settings), framesOf(settings)}, kDefaultFramebuffer));
+    FARCELL_ASSIGN(stats, drawOver(next, {0, framesOf(settings), framesOf(settings)}, framebuffer));
     stats.settled = settings.samplesPerPixel != kMultisamples;
     return stats;
   }
@@ -184,7 +183,7 @@ Result<FrameStats> Renderer::Impl::showNext(Shown next) {
     gather.emplace(settings.width, settings.height, 1, false);
   FARCELL_ASSIGN(stats,
                  drawOver(next, {settled ? 0 : restingFrames - 1, restingFrames, kPasses}, gather->framebuffer()));
-  glBlitNamedFramebuffer(gather->framebuffer(), kDefaultFramebuffer, 0, 0, settings.width, settings.height, 0, 0,
+  glBlitNamedFramebuffer(gather->framebuffer(), framebuffer, 0, 0, settings.width, settings.height, 0, 0,
                          settings.width, settings.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   stats.settled = restingFrames == kPasses;
   return stats;
@@ -234,8 +233,9 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   return stats;
 }
 
-Result<FrameStats> Renderer::show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {
-  return impl_->showNext({camera, settings, backdrop});
+Result<FrameStats> Renderer::show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop,
+                                  uint32_t framebuffer) {
+  return impl_->showNext({camera, settings, backdrop}, framebuffer);
 }
 
 Result<FrameImage> Renderer::capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {

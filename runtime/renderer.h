@@ -55,10 +55,11 @@ class Renderer {
   // invalidArgument: a size or number of samples that cannot be; else what reading pages failed with.
   Result<FrameStats> draw(const Camera& camera, const RenderSettings& settings, FrameImage* image);
 
-  // Draws over the backdrop into the default framebuffer of the context's window, whose size is that of `settings`, and
-  // does not wait for the GPU. Where 4 samples are asked for, frames of a camera that rests gather 16, a pass a frame,
-  // until the picture has `settled`. Fails as `draw` does.
-  Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
+  // Draws over the backdrop into a framebuffer (of this OpenGL name; 0: the window's), whose size is that of
+  // `settings`, and does not wait for the GPU. Where 4 samples are asked for, frames of a camera that rests gather 16,
+  // a pass a frame, until the picture has `settled`. Fails as `draw` does.
+  Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop,
+                          uint32_t framebuffer = 0);
   // The picture that `show` would show, alpha 255, read back.
   Result<FrameImage> capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
 

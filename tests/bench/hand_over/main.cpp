@@ -25,10 +25,10 @@ struct Way {
   RenderMode mode;
   bool handOver;
 };
-constexpr std::array kWays = {
-    Way{"full, 4 samples", RenderMode::full, false}, Way{"auto", RenderMode::automatic, false},
-    Way{"auto, handed over", RenderMode::automatic, true}, Way{"A", RenderMode::impostors, false},
-    Way{"A, handed over", RenderMode::impostors, true}};
+constexpr std::array kWays = {Way{"full 4 samples", RenderMode::full, false}, Way{"auto", RenderMode::automatic, false},
+                              Way{"auto handed over", RenderMode::automatic, true},
+                              Way{"A", RenderMode::impostors, false},
+                              Way{"A handed over", RenderMode::impostors, true}};
 
 using Picture = std::vector<uint8_t>;  // RGB over the default background
 
