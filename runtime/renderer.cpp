@@ -11,6 +11,7 @@
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/frame_painter.h"
 #include "runtime/draw/frame_target.h"
+#include "runtime/occlusion/occlusion.h"
 #include "runtime/selection/hand_over.h"
 
 namespace farcell {
@@ -32,6 +33,18 @@ glm::dvec2 jitterOf(int frame, int frames) {
   return frames > 1 ? glm::dvec2(jitter[0], jitter[1]) : glm::dvec2(0);
 }
 
+// Where the samples of a pixel lie, y up.
+std::vector<glm::vec2> samplePositions() {
+  const FrameTarget target(1, 1, kMultisamples, false);
+  target.begin();
+  GLint count = 0;
+  glGetIntegerv(GL_SAMPLES, &count);
+  std::vector<glm::vec2> positions(static_cast<size_t>(std::max(count, 0)));
+  for (size_t i = 0; i < positions.size(); ++i)
+    glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), &positions[i].x);
+  return positions;
+}
+
 class Stopwatch {
  public:
   double wallMs() const {
@@ -44,10 +57,30 @@ class Stopwatch {
   double startCpuSeconds_ = processCpuSeconds();
 };
 
+SelectionSettings selectionOf(const RenderSettings& settings) {
+  SelectionSettings selection = settings.selection;
+  selection.costs = settings.costs.of(static_cast<size_t>(settings.kind), settings.samplesPerPixel);
+  selection.timeBudgetMs /= framesOf(settings);
+  return selection;
+}
+
 uint64_t countOf(const Cut& cut, Representation representation) {
   return static_cast<uint64_t>(std::count_if(cut.entries.begin(), cut.entries.end(), [&](const CutEntry& entry) {
     return entry.representation == representation;
   }));
+}
+
+void tell(const Cut& cut, const RenderSettings& settings, FrameStats& stats) {
+  stats.triangles = cut.triangles;
+  stats.meshes = countOf(cut, Representation::mesh);
+  stats.work = cut.work;
+  stats.expectedMs = framesOf(settings) * expectedMs(selectionOf(settings).costs, cut.work);
+  stats.hiddenCells = cut.hidden.cells;
+  stats.hiddenTriangles = static_cast<uint64_t>(cut.hidden.work.triangles);
+  stats.hiddenBytes = cut.hidden.storedBytes;
+  stats.hiddenMs = framesOf(settings) * expectedMs(selectionOf(settings).costs, cut.hidden.work);
+  stats.expectedLoss = cut.loss;
+  stats.lossBound = cut.lossBound;
 }
 
 void addTo(std::vector<uint16_t>& sums, const std::vector<uint8_t>& values) {
@@ -59,6 +92,13 @@ std::vector<uint8_t> meanOf(const std::vector<uint16_t>& sums, int count) {
   std::vector<uint8_t> result(sums.size());
   for (size_t i = 0; i < sums.size(); ++i) result[i] = static_cast<uint8_t>((sums[i] + count / 2) / count);
   return result;
+}
+
+// Pictures of one sample, and what is shown instead of the picture, are of one cut.
+bool handsOver(const RenderSettings& settings) {
+  const RenderMode mode = settings.selection.mode;
+  const bool changes = mode != RenderMode::triangles && mode != RenderMode::full;
+  return changes && settings.handOver && settings.samplesPerPixel > 1 && settings.show == Show::picture;
 }
 
 // What a window shows.
@@ -77,11 +117,12 @@ struct Passes {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const PackFile& packFile, Viewpoints set) : pack(packFile), viewpoints(std::move(set)) {}
+  Impl(const PackFile& packFile, Viewpoints set)
+      : pack(packFile), viewpoints(std::move(set)), multisamples(samplePositions()), occluders(packFile) {}
 
   Result<> checkSettings(const RenderSettings& settings) const;
-  Cut cutFor(const Camera& camera, const RenderSettings& settings) const;
   const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
+  Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx, FrameStats& stats);
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
                     glm::dvec2 jitterPx, FrameStats& stats);
   Result<FrameStats> drawOver(const Shown& shown, Passes passes, GLuint framebuffer);
@@ -89,7 +130,10 @@ struct Renderer::Impl {
 
   const PackFile& pack;
   const Viewpoints viewpoints;
+  const std::vector<glm::vec2> multisamples;
   int maxSize = 0;
+  OccluderCache occluders;
+  OcclusionRest occlusionRest;
   std::optional<FramePainter> painter;
   std::optional<BackdropPainter> backdropPainter;  // made with the first picture that has a backdrop
   std::optional<FrameTarget> target;
@@ -106,14 +150,6 @@ Result<> Renderer::Impl::checkSettings(const RenderSettings& settings) const {
     return fail(ErrorKind::invalidArgument, "samples per pixel: expected 1, 4 or 16, found {}",
                 settings.samplesPerPixel);
   return {};
-}
-
-Cut Renderer::Impl::cutFor(const Camera& camera, const RenderSettings& settings) const {
-  const RenderMode mode = settings.selection.mode;
-  const bool changes = mode != RenderMode::triangles && mode != RenderMode::full;
-  const bool handsOver = changes && settings.handOver && settings.samplesPerPixel > 1 && settings.show == Show::picture;
-  const auto select = handsOver ? selectHandOver : selectCut;
-  return select(pack.directory(), viewpoints, camera, settings.width, settings.height, settings.selection);
 }
 
 const FrameTarget& Renderer::Impl::targetFor(int width, int height, int samples, bool withCoverage) {
@@ -143,6 +179,35 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
   return {};
 }
 
+Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx,
+                                  FrameStats& stats) {
+  const SelectionSettings selection = selectionOf(settings);
+  const Directory& directory = pack.directory();
+  const auto selector = handsOver(settings) ? selectHandOver : selectCut;
+  const auto select = [&](const HiddenCells* hidden) {
+    return selector(directory, viewpoints, camera, settings.width, settings.height, selection, hidden);
+  };
+  Cut cut = select(nullptr);
+  const bool known = settings.samplesPerPixel == 1 || multisamples.size() == kMultisamples;
+  if (!settings.occlusion || selection.mode == RenderMode::full || !known) return cut;
+  if (settings.occlusionMustPay && occlusionRest.resting()) return cut;
+  const Stopwatch watch;
+  uint64_t read = 0;
+  const std::vector<glm::vec2> samples =
+      settings.samplesPerPixel == 1 ? std::vector<glm::vec2>{glm::vec2(0.5f)} : multisamples;
+  FARCELL_ASSIGN(
+      const Occlusion occlusion,
+      Occlusion::of(directory, camera, {settings.width, settings.height, samples, jitterPx}, cut, occluders, read));
+  Cut rest = select(&occlusion);
+  const bool pays = !settings.occlusionMustPay ||
+                    expectedMs(selection.costs, rest.hidden.work) > occlusion.expectedMs(cut.entries.size());
+  occlusionRest.tried(pays);
+  stats.occlusionMs += watch.wallMs();
+  stats.occlusionBytes += read;
+  stats.bytesRead += read;
+  return pays ? rest : cut;
+}
+
 // Passes are averaged as they come: each is mixed with the mean of those before.
 Result<FrameStats> Renderer::Impl::drawOver(const Shown& picture, Passes passes, GLuint framebuffer) {
   const auto& [camera, settings, backdrop] = picture;
@@ -153,16 +218,16 @@ Result<FrameStats> Renderer::Impl::drawOver(const Shown& picture, Passes passes,
   }
   const Stopwatch watch;
   FrameStats stats;
-  const Cut cut = cutFor(camera, settings);
+  Cut cut;
   for (int i = passes.first; i < passes.end; ++i) {
+    FARCELL_ASSIGN(cut, cutOf(camera, settings, jitterOf(i, passes.all), stats));
     FARCELL_TRY(drawOnce(camera, settings, cut, false, jitterOf(i, passes.all), stats));
     backdropPainter->paint(*target, backdrop, camera, upVector(pack.directory().model.settings.up), 1.0 / (i + 1),
                            framebuffer);
   }
   stats.wallMs = watch.wallMs();
   stats.cpuMs = watch.cpuMs();
-  stats.triangles = cut.triangles;
-  stats.meshes = countOf(cut, Representation::mesh);
+  tell(cut, settings, stats);
   return stats;
 }
 
@@ -217,13 +282,12 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   const int frames = framesOf(settings);
   for (int i = 0; i < frames; ++i) {
     const Stopwatch watch;
-    const Cut cut = impl_->cutFor(camera, settings);
+    FARCELL_ASSIGN(const Cut cut, impl_->cutOf(camera, settings, jitterOf(i, frames), stats));
     FARCELL_TRY(impl_->drawOnce(camera, settings, cut, image != nullptr, jitterOf(i, frames), stats));
     glFinish();
     stats.wallMs += watch.wallMs();
     stats.cpuMs += watch.cpuMs();
-    stats.triangles = cut.triangles;
-    stats.meshes = countOf(cut, Representation::mesh);
+    tell(cut, settings, stats);
     if (image == nullptr) continue;
     addTo(colourSums, impl_->target->readColour());
     addTo(coverageSums, impl_->target->readCoverage());

@@ -7,6 +7,7 @@
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
 #include "runtime/camera/camera.h"
+#include "runtime/cost/draw_costs.h"
 #include "runtime/draw/backdrop.h"
 #include "runtime/draw/impostor_kind.h"
 #include "runtime/draw/show.h"
@@ -21,7 +22,10 @@ struct RenderSettings {
   int height = 720;
   int samplesPerPixel = 4;  // 1, 4 (multisampling) or 16 (four jittered passes of 4)
   ImpostorKind kind = ImpostorKind::depthCorrected;
-  SelectionSettings selection;
+  SelectionSettings selection;  // its costs are those of `kind` and samples here
+  CostModel costs = kDefaultCosts;
+  bool occlusion = true;         // cells that nearer triangles hide are not drawn; mode `full` draws them all the same
+  bool occlusionMustPay = true;  // only where that is expected to save more time than the search takes
   Show show = Show::picture;
   bool handOver =
       true;  // of pictures of 4 samples or more: cells change how they are drawn without a pop (hand_over.h)
@@ -32,11 +36,23 @@ struct FrameStats {
   double wallMs = 0;  // selection, draw and finish (`draw`) or hand-over to the GPU (`show`); without reading pages
                       // when all were resident
   double cpuMs = 0;   // of the whole process
-  uint64_t triangles = 0;           // drawn, of leaves and of meshes
-  uint64_t meshes = 0;              // inner cells drawn as their simplified meshes
-  uint64_t impostors = 0;           // cells drawn as impostors
-  uint64_t texels = 0;              // of the views drawn (cropped rectangles)
-  uint64_t bytesRead = 0;           // from the pack for this frame
+  uint64_t triangles = 0;   // drawn, of leaves and of meshes
+  uint64_t meshes = 0;      // inner cells drawn as their simplified meshes
+  uint64_t impostors = 0;   // cells drawn as impostors
+  uint64_t texels = 0;      // of the views drawn (cropped rectangles)
+  uint64_t bytesRead = 0;   // from the pack for this frame
+  FrameWork work;           // as selection foresaw it, in each of the frame's passes
+  double expectedMs = 0;    // that it takes, by RenderSettings::costs
+  double expectedLoss = 0;  // Cut::loss and Cut::lossBound
+  double lossBound = 0;
+  // What nearer triangles hide and was neither drawn nor read (Cut::hidden), the time it was expected to take, and the
+  // time finding it took. 0 where it was not looked for.
+  uint64_t hiddenCells = 0;
+  uint64_t hiddenTriangles = 0;
+  uint64_t hiddenBytes = 0;
+  double hiddenMs = 0;
+  double occlusionMs = 0;
+  uint64_t occlusionBytes = 0;      // of bytesRead, what was read to find it
   std::vector<LegendEntry> legend;  // of RenderSettings::show; empty for the picture
   bool settled = true;              // of `show`: the same once more would show the same picture
 };

@@ -32,6 +32,8 @@ forTests=(
   xvfb xdotool
   # readers of manual pages, shells that complete, and what looks into the Debian package
   man-db mandoc zsh fish dpkg-dev lintian
+  # the tables that benchmarks make of reports
+  jq
   # the optional farcell-build-mpi, and the mpirun that its test is run by
   libopenmpi-dev openmpi-bin
 )

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/draw/view_mips.h"
+#include "cache/pack/view_mips.h"
 
 namespace farcell {
 namespace {
@@ -55,7 +55,7 @@ const ResidentView* ViewStore::keep(uint32_t cell, uint32_t view) {
 }
 
 const ResidentView* ViewStore::add(uint32_t cell, uint32_t view, const ViewImage& image) {
-  ResidentView resident{-1, image.x0, image.y0, image.width, image.height, image.depthMin, image.depthMax};
+  ResidentView resident = residentView(image, -1);
   if (image.width > 0) {
     resident.layer = takeLayer();
     if (resident.layer < 0) return nullptr;

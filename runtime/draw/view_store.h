@@ -8,17 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "cache/pack/pages.h"
+#include "cache/pack/view_space.h"
 #include "runtime/gl/objects.h"
 
 namespace farcell {
-
-// What a draw must know about a resident view.
-struct ResidentView {
-  int layer = -1;  // -1: the view is empty, there is nothing to draw
-  uint32_t x0 = 0, y0 = 0, width = 0, height = 0;
-  float depthMin = 0, depthMax = 0;
-};
 
 class ViewStore {
  public:

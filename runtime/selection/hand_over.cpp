@@ -50,9 +50,10 @@ bool before(const Placed& a, const Placed& b) {
   return a.order != b.order ? a.order < b.order : identity(a.entry) < identity(b.entry);
 }
 
-Cut merged(const Directory& directory, std::vector<Placed> placed) {
+void merge(const Directory& directory, std::vector<Placed> placed, Cut& cut) {
   std::sort(placed.begin(), placed.end(), before);
-  Cut cut;
+  cut.entries.clear();
+  cut.triangles = 0;
   for (const Placed& next : placed) {
     if (!cut.entries.empty() && identity(cut.entries.back()) == identity(next.entry)) {
       cut.entries.back().shares |= next.entry.shares;
@@ -62,29 +63,26 @@ Cut merged(const Directory& directory, std::vector<Placed> placed) {
     if (next.entry.representation != Representation::impostor)
       cut.triangles += directory.cells[next.entry.cell].meshTriangles;
   }
-  return cut;
 }
 
 }  // namespace
 
 Cut selectHandOver(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width,
-                   int height, const SelectionSettings& settings) {
+                   int height, const SelectionSettings& settings, const HiddenCells* hidden) {
   const Grid& grid = directory.model.grid;
   const glm::dvec3 eyeSteps = (camera.position - grid.origin) / grid.step();
   std::vector<Placed> placed;
-  uint32_t culled = 0;
+  Cut cut;
   for (int share = 0; share < kShares; ++share) {
     const SelectionSettings own = settingsOf(share, settings);
-    const Cut cut = selectCut(directory, viewpoints, camera, width, height, own);
-    culled = cut.culled;
+    cut = selectCut(directory, viewpoints, camera, width, height, own, hidden);
     for (CutEntry entry : cut.entries) {
       entry.shares = static_cast<uint8_t>(1u << share);
       entry.errorPixels /= own.detail;
       placed.push_back({depthOrder(directory, eyeSteps, entry.cell), entry});
     }
   }
-  Cut cut = merged(directory, std::move(placed));
-  cut.culled = culled;
+  merge(directory, std::move(placed), cut);
   return cut;
 }
 

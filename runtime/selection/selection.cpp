@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "cache/schema/view_frame.h"
+#include "runtime/selection/cut_optimiser.h"
+#include "runtime/selection/loss.h"
 
 namespace farcell {
 namespace {
 
 constexpr double kMaxEyeSteps = 1e30;  // farther away, a model is less than nothing; products stay finite
+// Where time, texels or bytes are short, an impostor's texel may be larger than allowed by this factor.
+constexpr double kCoarsest = 8;
 
 // Everything is in grid steps from the grid's origin: exact for cells, whatever the model's scale and offset.
 struct View {
@@ -50,74 +53,123 @@ double distanceSteps(glm::dvec3 eye, const GridBox& box) {
   return glm::length(eye - nearest);
 }
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-// The budget is met by raising the price of a triangle: at this one none is worth it, whatever the size of a picture.
-constexpr double kHighestPrice = 1e12;
-constexpr double kPriceFactor = 16;
-constexpr int kPriceSteps = 20;  // halvings of the logarithm between two prices
-
-// A cell in view that no cell above it stands for as an impostor. Losses: of each way to draw it (selection.h), without
-// the price of its triangles; kNever: it is not drawn so.
-struct Node {
-  uint32_t cell;
-  uint32_t end = 0;   // index after the last node below it
-  bool open = false;  // those below it may be drawn instead
-  double areaPixels = 0;
-  double viewLoss = kNever;
-  double meshLoss = kNever;
-  // As `drawn` says, with all below it.
-  enum class Drawn : uint8_t { asViews, asMesh, byChildren } drawn = Drawn::byChildren;
-  double cost = 0;  // loss and the price of triangles
-  uint64_t triangles = 0;
-};
-
 class Selector {
  public:
   Selector(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, const View& view, int width,
-           int height, const SelectionSettings& settings)
+           int height, const SelectionSettings& settings, const HiddenCells* hidden)
       : directory_(directory),
         viewpoints_(viewpoints),
         back_(cameraAxes(camera).back),
         view_(view),
         settings_(settings),
+        hidden_(hidden),
         imageTexel_(texelSize(directory.model.settings.imageSize)),
         picturePixels_(static_cast<double>(width) * height * settings.detail * settings.detail) {}
 
   Cut run() {
     if (!directory_.cells.empty()) visit(0);
-    decideWithinBudget();
-    collect();
+    if (nodes_.empty()) return std::move(cut_);
+    CutDecision decision = decideCut(nodes_, prices(), budgets());
+    if (hidden_ != nullptr && decision.budgetBinds) {
+      prune_ = true;
+      nodes_.clear();
+      cut_.culled = 0;
+      visit(0);
+      decision = decideCut(nodes_, prices(), budgets());
+    }
+    cut_.loss = decision.loss;
+    cut_.lossBound = decision.bound - (decision.cost - decision.loss);
+    collect(decision.drawn);
     return std::move(cut_);
   }
 
  private:
-  // Nodes front to back, each followed by those below it.
-  void visit(uint32_t index) {
+  // Nodes front to back, each followed by those below it. Returns whether a leaf that hides others is among them: it
+  // stays as it is, and nothing above it is drawn.
+  bool visit(uint32_t index) {
     const CellRecord& cell = directory_.cells[index];
-    if (cell.content.empty()) return;
+    if (cell.content.empty()) return false;
     if (settings_.mode != RenderMode::full && outside(view_, cell.content)) {
       ++cut_.culled;
-      return;
+      return false;
     }
+    bool needed = prune_ && hidden_->needs(index);
     const size_t place = nodes_.size();
-    const bool views = mayHaveViews() && cell.firstViewPage != kNone;
-    const bool far = views && farEnough(cell);
+    const bool views = mayHaveViews() && cell.firstViewPage != kNone && (cell.childCount == 0 || isOutside(cell));
+    const bool far = views && isOutside(cell) && texelPixels(cell) <= settings_.texelPixels;
     nodes_.push_back({.cell = index, .open = cell.childCount > 0 && !far});
-    if (nodes_[place].open) visitChildren(cell);
-    Node& node = nodes_[place];
+    if (prune_ && !needed && hidden_->hides(index)) {
+      nodes_[place].end = static_cast<uint32_t>(nodes_.size());
+      nodes_[place].mesh = nodes_[place].views = {.loss = 0, .amounts = {}};
+      return false;
+    }
+    if (nodes_[place].open) needed |= visitChildren(cell);
+    CutNode& node = nodes_[place];
     node.end = static_cast<uint32_t>(nodes_.size());
     node.areaPixels = node.open ? areaBelow(place) : areaPixels(cell);
-    if (views && !node.open) node.viewLoss = node.areaPixels * impostorLoss(texelPixels(cell));
-    if (mayBeMesh(cell) && !far)
-      node.meshLoss = settings_.mode == RenderMode::automatic ? node.areaPixels * meshLoss(meshPixels(cell)) : 0;
+    if (views && !needed && (!node.open || mayBeCoarse(cell))) node.views = asViews(cell, node.areaPixels);
+    if (mayBeMesh(cell) && !far && (!needed || cell.childCount == 0)) node.mesh = asMesh(cell, node.areaPixels);
+    return needed;
+  }
+
+  // Meshes alone: the fewest triangles.
+  Amounts prices() const {
+    Amounts prices{};
+    if (settings_.mode != RenderMode::automatic)
+      at(prices, Resource::triangles) = 1;
+    else if (settings_.timeBudgetMs == 0)
+      at(prices, Resource::milliseconds) = settings_.millisecondPrice;
+    return prices;
+  }
+  Amounts budgets() const {
+    Amounts budgets = kNoBudgets;
+    if (settings_.mode != RenderMode::automatic) return budgets;
+    at(budgets, Resource::triangles) = static_cast<double>(settings_.triangleBudget);
+    if (settings_.timeBudgetMs > 0)
+      at(budgets, Resource::milliseconds) = settings_.timeBudgetMs - settings_.costs.picturePixelMs * picturePixels_;
+    if (settings_.texelBudget > 0) at(budgets, Resource::texels) = static_cast<double>(settings_.texelBudget);
+    if (settings_.byteBudget > 0) at(budgets, Resource::bytes) = static_cast<double>(settings_.byteBudget);
+    return budgets;
+  }
+
+  Way asViews(const CellRecord& cell, double areaBelowPixels) const {
+    const double texel = texelPixels(cell);
+    const double area = areaPixels(cell);
+    Way way{.loss = areaBelowPixels * impostorLoss(cell, texel), .amounts = {}};
+    at(way.amounts, Resource::milliseconds) = expectedMs(settings_.costs, workOf(cell, true));
+    at(way.amounts, Resource::texels) = area / (texel * texel);
+    if (settings_.byteBudget > 0) at(way.amounts, Resource::bytes) = viewBytes(cell);
+    return way;
+  }
+  Way asMesh(const CellRecord& cell, double areaBelowPixels) const {
+    const auto triangles = static_cast<double>(cell.meshTriangles);
+    const double density = static_cast<double>(cell.triangles) / areaBelowPixels;
+    const double loss = settings_.mode == RenderMode::automatic ? meshLoss(cell, meshPixels(cell), density) : 0;
+    Way way{.loss = areaBelowPixels * loss, .amounts = {}};
+    at(way.amounts, Resource::milliseconds) = expectedMs(settings_.costs, workOf(cell, false));
+    at(way.amounts, Resource::triangles) = triangles;
+    if (settings_.byteBudget > 0) at(way.amounts, Resource::bytes) = meshBytes(cell);
+    return way;
+  }
+
+  // Of the page of the nearest view, as far as it matters: a mean page.
+  double viewBytes(const CellRecord& cell) const {
+    double sum = 0;
+    for (uint32_t page = 0; page < cell.viewPageCount; ++page)
+      sum += directory_.pages[cell.firstViewPage + page].storedBytes;
+    return cell.viewPageCount > 0 ? sum / cell.viewPageCount : 0;
+  }
+  double meshBytes(const CellRecord& cell) const {
+    double sum = 0;
+    for (uint32_t page = 0; page < cell.geometryPageCount; ++page)
+      sum += directory_.pages[cell.firstGeometryPage + page].storedBytes;
+    return sum;
   }
 
   // A ray from the eye crosses each plane between the children at most once, away from the eye's side: an octant can
   // hide another only if it differs from the eye's octant in a subset of the other's axes. Counting up in
   // (octant xor eye's octant) visits subsets first.
-  void visitChildren(const CellRecord& cell) {
-    if (cell.childCount == 0) return;
+  bool visitChildren(const CellRecord& cell) {
     const GridBox box = cellBox(directory_.model.grid, cell.key);
     uint32_t eyeOctant = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -126,8 +178,10 @@ class Selector {
     children.fill(kNone);
     for (uint32_t child = cell.firstChild; child < cell.firstChild + cell.childCount; ++child)
       children[directory_.cells[child].key.octant()] = child;
+    bool needed = false;
     for (uint32_t i = 0; i < 8; ++i)
-      if (children[i ^ eyeOctant] != kNone) visit(children[i ^ eyeOctant]);
+      if (children[i ^ eyeOctant] != kNone) needed |= visit(children[i ^ eyeOctant]);
+    return needed;
   }
 
   bool mayHaveViews() const {
@@ -140,11 +194,14 @@ class Selector {
            meshPixels(cell) <= settings_.meshPixels;
   }
 
-  bool farEnough(const CellRecord& cell) const {
+  bool isOutside(const CellRecord& cell) const {
     const GridBox cube = cellBox(directory_.model.grid, cell.key);
     const double halfSide = (cube.max.x - cube.min.x) * 0.5;
-    if (glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) <= std::sqrt(3.0) * halfSide) return false;
-    return texelPixels(cell) <= settings_.texelPixels;
+    return glm::length(view_.eye - glm::dvec3(cube.min + cube.max) * 0.5) > std::sqrt(3.0) * halfSide;
+  }
+  bool mayBeCoarse(const CellRecord& cell) const {
+    const bool isShort = settings_.timeBudgetMs > 0 || settings_.texelBudget > 0 || settings_.byteBudget > 0;
+    return settings_.mode == RenderMode::automatic && isShort && texelPixels(cell) <= kCoarsest * settings_.texelPixels;
   }
 
   // What a convex body of the box's size covers, mean over directions: a quarter of its surface (Cauchy).
@@ -172,63 +229,35 @@ class Selector {
     return errorSteps / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
   }
 
-  // The cut of the least loss where a triangle has this price; returns its triangles. A higher price never gives more.
-  uint64_t decide(double price) {
-    for (size_t i = nodes_.size(); i-- > 0;) {
-      Node& node = nodes_[i];
-      node.drawn = Node::Drawn::byChildren;
-      node.cost = node.open ? 0 : kNever;
-      node.triangles = 0;
-      for (size_t child = i + 1; child < node.end; child = nodes_[child].end) {
-        node.cost += nodes_[child].cost;
-        node.triangles += nodes_[child].triangles;
-      }
-      const uint64_t triangles = directory_.cells[node.cell].meshTriangles;
-      const double meshCost = node.meshLoss + price * static_cast<double>(triangles);
-      if (meshCost < node.cost) {
-        node.drawn = Node::Drawn::asMesh;
-        node.cost = meshCost;
-        node.triangles = triangles;
-      }
-      if (node.viewLoss < node.cost) {
-        node.drawn = Node::Drawn::asViews;
-        node.cost = node.viewLoss;
-        node.triangles = 0;
-      }
-    }
-    return nodes_.empty() ? 0 : nodes_[0].triangles;
-  }
-
-  void decideWithinBudget() {
-    double low = kTrianglePrice;
-    if (decide(low) <= settings_.triangleBudget || settings_.mode != RenderMode::automatic) return;
-    double high = low * kPriceFactor;
-    while (high < kHighestPrice && decide(high) > settings_.triangleBudget) {
-      low = high;
-      high *= kPriceFactor;
-    }
-    for (int step = 0; step < kPriceSteps; ++step) {
-      const double middle = std::sqrt(low * high);
-      (decide(middle) > settings_.triangleBudget ? low : high) = middle;
-    }
-    decide(high);
-  }
-
-  void collect() {
+  void collect(const std::vector<Drawn>& drawn) {
+    cut_.work.picturePixels = picturePixels_;
     for (size_t i = 0; i < nodes_.size();) {
-      const Node& node = nodes_[i];
-      if (node.drawn == Node::Drawn::byChildren) {
+      if (drawn[i] == Drawn::byChildren) {
         ++i;
         continue;
       }
-      if (node.drawn == Node::Drawn::asViews)
-        addImpostor(node.cell);
+      const bool views = drawn[i] == Drawn::asViews;
+      if (hidden_ != nullptr && !hidden_->needs(nodes_[i].cell) && hidden_->hides(nodes_[i].cell))
+        leaveOut(directory_.cells[nodes_[i].cell], views);
+      else if (views)
+        addImpostor(nodes_[i].cell);
       else
-        addMesh(node.cell);
-      i = node.end;
+        addMesh(nodes_[i].cell);
+      i = nodes_[i].end;
     }
+    cut_.triangles = static_cast<uint64_t>(cut_.work.triangles);
   }
 
+  FrameWork workOf(const CellRecord& cell, bool views) const {
+    const double area = areaPixels(cell);
+    if (views) return {.impostors = 1, .impostorPixels = area};
+    return {.triangles = static_cast<double>(cell.meshTriangles), .meshPixels = area};
+  }
+  void leaveOut(const CellRecord& cell, bool views) {
+    ++cut_.hidden.cells;
+    cut_.hidden.work += workOf(cell, views);
+    cut_.hidden.storedBytes += static_cast<uint64_t>(views ? viewBytes(cell) : meshBytes(cell));
+  }
   void addImpostor(uint32_t index) {
     const GridBox& content = directory_.cells[index].content;
     glm::dvec3 direction = view_.eye - glm::dvec3(content.min + content.max) * 0.5;
@@ -239,6 +268,7 @@ class Selector {
                                          : Viewpoints::Triple{{nearest, second, second}, {1, 0, 0}};
     cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(nearest),
                             static_cast<uint32_t>(second), blend, texelPixels(directory_.cells[index])});
+    cut_.work += workOf(directory_.cells[index], true);
   }
   // The nearest to the direction as it leans; then the nearest other one, as it is.
   std::array<int, 2> nearestTwo(glm::dvec3 direction) const {
@@ -252,7 +282,7 @@ class Selector {
     cut_.entries.push_back({.cell = index,
                             .representation = leaf ? Representation::triangles : Representation::mesh,
                             .errorPixels = meshPixels(cell)});
-    cut_.triangles += cell.meshTriangles;
+    cut_.work += workOf(cell, false);
   }
 
   const Directory& directory_;
@@ -260,23 +290,20 @@ class Selector {
   const glm::dvec3 back_;
   const View view_;
   const SelectionSettings settings_;
+  const HiddenCells* const hidden_;
+  bool prune_ = false;
   const double imageTexel_;
   const double picturePixels_;
-  std::vector<Node> nodes_;
+  std::vector<CutNode> nodes_;
   Cut cut_;
 };
 
 }  // namespace
 
-double impostorLoss(double texelPixels) {
-  return std::min(0.1 + 0.4 * texelPixels, 4.0) + kTrianglePrice * kTrianglesPerPixel;
-}
-double meshLoss(double errorPixels) { return 0.4 + 0.25 * errorPixels; }
-
 Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
-              const SelectionSettings& settings) {
+              const SelectionSettings& settings, const HiddenCells* hidden) {
   const View view = makeView(directory.model.grid, camera, width, height, settings.detail);
-  return Selector(directory, viewpoints, camera, view, width, height, settings).run();
+  return Selector(directory, viewpoints, camera, view, width, height, settings, hidden).run();
 }
 
 }  // namespace farcell

@@ -6,9 +6,10 @@
 //
 // What is too near for that is the cut of the least loss: of leaves in full, leaves as impostors, and inner cells as
 // simplified meshes whose geometric error is at most meshPixels at the cell's nearest point. A way of drawing a cell
-// loses the image error to expect of it times the pixels the cell covers, and kTrianglePrice for each triangle: error
-// and time in one sum, so that each triangle goes where it removes the most error. Where those are more triangles than
-// the budget, their price is raised until they fit: no other cut of so few triangles loses less.
+// loses the image error to expect of it (loss.h) times the pixels the cell covers. Budgets of triangles, time, texels
+// and bytes are kept (cut_optimiser.h); where no time is given, a millisecond has a price, so that each goes where it
+// removes the most error. What takes how long is the machine's matter, `costs`; the default is one machine's, so that a
+// picture is the same on all.
 #pragma once
 
 #include <array>
@@ -19,19 +20,16 @@
 #include "cache/pack/directory.h"
 #include "cache/schema/viewpoints.h"
 #include "runtime/camera/camera.h"
+#include "runtime/cost/draw_costs.h"
+#include "runtime/selection/hidden_cells.h"
 
 namespace farcell {
 
 inline constexpr double kTexelPixels = 0.5;
 inline constexpr double kMeshPixels = 1;
 
-// Image errors to expect, in those of full geometry at one sample a pixel (tests/bench/cut/results.md): of an impostor
-// of kind A, with what its pixels cost, and of a mesh, at 4 samples, full or with a geometric error. By lengths on
-// screen, pixels.
-inline constexpr double kTrianglePrice = 0.01;     // image error x pixels that a triangle must save
-inline constexpr double kTrianglesPerPixel = 0.4;  // a pixel of an impostor takes as long as so many triangles
-double impostorLoss(double texelPixels);
-double meshLoss(double errorPixels);
+// Image error x pixels that a millisecond must save, where no time budget is given.
+inline constexpr double kMillisecondPrice = 8;
 
 enum class RenderMode {
   automatic,  // impostors, meshes and triangles
@@ -48,9 +46,15 @@ enum class Representation : uint8_t {
 
 struct SelectionSettings {
   RenderMode mode = RenderMode::automatic;
-  uint64_t triangleBudget = 500'000;
+  uint64_t triangleBudget = 1'000'000;
   double texelPixels = kTexelPixels;  // that an impostor's texel may measure
   double meshPixels = kMeshPixels;    // that a simplified mesh's geometric error may measure; 0: no simplified meshes
+  // Of automatic pictures; 0: none. Where one of these binds, impostors may be coarser than texelPixels.
+  double timeBudgetMs = 0;                      // expected, by `costs`
+  double millisecondPrice = kMillisecondPrice;  // where no time budget is given
+  uint64_t texelBudget = 0;                     // of views, roughly
+  uint64_t byteBudget = 0;                      // stored, of the pages drawn from
+  DrawCosts costs = kDefaultCosts.of(1, 4);     // of kind A
   // How the cut of a share differs from the others' (hand_over.h).
   double detail = 1;         // a pixel counts as so many along its edge
   glm::dvec3 lean{0, 0, 0};  // added to the unit direction from which the nearest view is chosen
@@ -78,10 +82,22 @@ struct CutEntry {
 struct Cut {
   std::vector<CutEntry> entries;
   uint64_t triangles = 0;  // of leaves and meshes
-  uint32_t culled = 0;     // cells (with all below) outside the frustum
+  FrameWork work;
+  double loss = 0;       // image error to expect, in that of full geometry at one sample a pixel, x pixels
+  double lossBound = 0;  // of automatic pictures: no cut within the budgets that takes no longer loses less
+
+  // Left out because nearer cells hide them: entries, what they would have drawn and how much they are in the pack.
+  struct {
+    uint32_t cells = 0;
+    FrameWork work;
+    uint64_t storedBytes = 0;
+  } hidden;
+  uint32_t culled = 0;  // cells (with all below) outside the frustum
 };
 
+// hidden: what is left out; null: nothing. Where a budget binds, what hidden cells do not take is given to others; else
+// the rest of the cut stays as it is without `hidden`.
 Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
-              const SelectionSettings& settings);
+              const SelectionSettings& settings, const HiddenCells* hidden = nullptr);
 
 }  // namespace farcell

@@ -1,5 +1,5 @@
 // Makes one text compile as C++ (with GLM) and as GLSL. Shared functions keep to the common subset: no swizzles,
-// no `out` parameters, full constructors.
+// no `out` parameters, full constructors; FARCELL_INOUT(type) is what a function changes.
 #ifndef FARCELL_SHADERS_SHARED_PORTABLE_H
 #define FARCELL_SHADERS_SHARED_PORTABLE_H
 
@@ -17,10 +17,14 @@
   using namespace glm;
 #define FARCELL_SHARED_END }
 #define FARCELL_SHARED inline
+#define FARCELL_CONST static constexpr
+#define FARCELL_INOUT(type) type&
 #else
 #define FARCELL_SHARED_BEGIN
 #define FARCELL_SHARED_END
 #define FARCELL_SHARED
+#define FARCELL_CONST const
+#define FARCELL_INOUT(type) inout type
 #endif
 
 #endif

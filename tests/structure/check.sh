@@ -47,10 +47,13 @@ layers() {
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
       add("preprocess/choose/", "preprocess", 11)
-      add("preprocess/encode/", "preprocess", 14); add("preprocess/build/", "preprocess", 15)
+      add("preprocess/encode/", "preprocess", 14); add("preprocess/measure/", "preprocess", 15)
+      add("preprocess/build/", "preprocess", 16)
       add("runtime/gl/", "runtime", 9)
-      add("runtime/camera/", "runtime", 10); add("runtime/selection/", "runtime", 11)
-      add("runtime/draw/", "runtime", 12); add("runtime/", "runtime", 13)
+      add("runtime/camera/", "runtime", 10); add("runtime/cost/", "runtime", 10)
+      add("runtime/selection/", "runtime", 11)
+      add("runtime/draw/", "runtime", 12); add("runtime/occlusion/", "runtime", 12)
+      add("runtime/", "runtime", 13); add("runtime/calibration/", "runtime", 14)
       # What several programs share (tools/reference < cli, image, report < options) lies below the programs, which never
       # see each other.
       add("tools/reference/", "top", 19); add("tools/cli/", "top", 20); add("tools/image/", "top", 20)
@@ -95,7 +98,7 @@ dependencies() {
   heavy libpng '[<"]png\.h' '^tools/image/png\.cpp'
   heavy Highway '[<"]hwy/' '^(preprocess/bake|tests)/'
   heavy EGL '[<"](EGL/|epoxy/egl)' '^runtime/gl/'
-  heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tests/runtime|tests/bench)/'
+  heavy OpenGL '[<"](epoxy/gl\.|GL/)' '^(runtime|tools/evaluate/baselines|tests/runtime|tests/bench)/'
   heavy nlohmann '[<"]nlohmann/' '^(preprocess/(read/(scene|gltf)|choose)|runtime/camera|tools|tests)/'
   heavy CLI11 '[<"]CLI/' '^(tools|tests/bench)/'
   heavy GoogleTest '[<"](gtest|gmock)/' '^tests/'

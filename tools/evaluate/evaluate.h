@@ -1,8 +1,9 @@
 // The run behind `farcell evaluate`:
-// 1. open pack, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
+// 1. open packs, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
 // 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
 //    (metrics/) and time it;
-// 3. write report.json, report.csv, summary.csv, index.html, cameras.json and pictures (report/).
+// 3. per camera path: the same frame by frame, with what changes between frames (path/);
+// 4. write report.json, report.csv, summary.csv, equal.csv, paths.csv, index.html, cameras.json and pictures (report/).
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,12 @@ namespace farcell {
 
 struct EvaluateOptions {
   std::filesystem::path pack;
-  std::filesystem::path cameras;  // a camera file; empty: autoCameras
+  std::vector<std::string> against;  // other packs of the same model, see parseOtherPacks()
+  std::filesystem::path cameras;     // a camera file; empty: autoCameras
   int autoCameras = 0;
+  std::vector<std::string> paths;             // path files, or names of generated paths
+  int pathFrames = 60;                        // of each path
+  uint32_t pathSeed = 1;                      // of generated paths
   std::vector<std::filesystem::path> meshes;  // empty: the pack's own leaves are the truth
   std::filesystem::path output;               // directory, made when absent
   std::string renderers;
@@ -29,6 +34,8 @@ struct EvaluateOptions {
   int height = 720;
   int referenceSamples = 64;
   SelectionSettings selection;  // level rule and triangle budget of every renderer
+  bool recalibrate = false;     // machine costs, for the time budget
+  bool occlusion = true;        // RenderSettings::occlusion of every renderer
   double lodPixels = 1;         // geometric error of the renderer lod
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;
@@ -37,7 +44,7 @@ struct EvaluateOptions {
   bool json = false;  // stdout: the report instead of a table
 };
 
-// An interrupt or a failure after the first camera leaves a report of the cameras that were finished, marked
+// An interrupt or a failure after the first camera or frame of a path leaves a report of what was finished, marked
 // incomplete, and is returned as the error it is.
 Result<> evaluate(const EvaluateOptions& options);
 

@@ -1,6 +1,7 @@
 // One renderer's picture from one camera: timed, then measured.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "cache/base/result.h"
@@ -22,9 +23,22 @@ struct MeasureSettings {
   Colour background{};
 };
 
-// A renderer of its own, so that nothing is resident at first, draws 1 + timedFrames + 1 frames; the last is measured.
+// Draws a frame; the picture may be null.
+using DrawFrame = std::function<Result<FrameStats>(FrameImage* image)>;
+// 1 + timedFrames + 1 frames; the last is measured. `model`: what the distance of the eye is told by.
+Result<Measurement> measureFrames(const Model& model, const Camera& camera, const RendererPlan& plan,
+                                  const ReferenceImage& reference, const MeasureSettings& settings,
+                                  const DrawFrame& draw);
+
+// The same of a renderer of its own, so that nothing is resident at first.
 Result<Measurement> measureRenderer(GlContext& context, const PackFile& pack, const Camera& camera,
                                     const RendererPlan& plan, const ReferenceImage& reference,
                                     const MeasureSettings& settings);
+
+// The plan's meshPixels with which its frames take as long as targetMs, as nearly as kEqualTimeSteps measurements find
+// it.
+inline constexpr int kEqualTimeSteps = 7;
+Result<double> meshPixelsOfTime(GlContext& context, const PackFile& pack, const Camera& camera,
+                                const RendererPlan& plan, double targetMs, const MeasureSettings& settings);
 
 }  // namespace farcell

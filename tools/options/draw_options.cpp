@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "runtime/calibration/calibration.h"
 #include "runtime/camera/overview.h"
 #include "tools/cli/cli.h"
 
@@ -64,6 +65,16 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
          "high: --texel-pixels 0.35 --mesh-pixels 0.5 --samples 16, unless given")
       ->check(CLI::IsMember(kQualities))
       ->default_str("default");
+  app.add_option("--time-budget-ms", options.timeBudgetMs,
+                 "the least error in a frame of so many milliseconds, by what drawing was measured to cost on this "
+                 "machine at the first such start; 0: no such budget")
+      ->type_name("MS")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_flag("--recalibrate", options.recalibrate, "measure again what drawing costs on this machine");
+  app.add_option("--occlusion", options.occlusion, "leave out what nearer triangles hide; off: draw it all the same")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   app.add_option("--texel-pixels", options.texelPixels,
                  "an impostor's texel may be this large on screen, pixels; smaller: less error, more cells")
       ->check(CLI::Range(0.01, 100.0))
@@ -90,6 +101,9 @@ Result<DrawPlan> planOf(const DrawOptions& options) {
   plan.settings.kind = kKinds.at(options.kind);
   plan.settings.show = kShows.at(options.show);
   FARCELL_ASSIGN(plan.settings.selection.triangleBudget, parseCount(options.triangleBudget));
+  plan.settings.selection.timeBudgetMs = options.timeBudgetMs;
+  plan.recalibrate = options.recalibrate;
+  plan.settings.occlusion = options.occlusion == "on";
   plan.settings.selection.texelPixels = options.texelPixels;
   plan.settings.selection.meshPixels = options.meshPixels;
   FARCELL_ASSIGN(plan.residentBytes, parseCount(options.residentBytes));
@@ -102,6 +116,12 @@ Result<DrawPlan> planOf(const DrawOptions& options) {
     FARCELL_ASSIGN(plan.background, parseColour("--background", options.background));
   }
   return plan;
+}
+
+Result<> applyMachineCosts(GlContext& context, bool recalibrate, RenderSettings& settings) {
+  if (settings.selection.timeBudgetMs == 0 && !recalibrate) return {};
+  FARCELL_ASSIGN(settings.costs, machineCosts(context, recalibrate));
+  return {};
 }
 
 Result<Camera> chooseCamera(const DrawOptions& options, const Model& model, int width, int height) {

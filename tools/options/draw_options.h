@@ -22,7 +22,10 @@ struct DrawOptions {
   std::string mode = "auto";
   std::string kind = "A";
   std::string show = "picture";
-  std::string triangleBudget = "500k";
+  std::string triangleBudget = "1M";
+  double timeBudgetMs = 0;
+  bool recalibrate = false;
+  std::string occlusion = "on";
   double texelPixels = kTexelPixels;
   double meshPixels = kMeshPixels;
   int samples = 4;
@@ -35,11 +38,15 @@ struct DrawPlan {
   RenderSettings settings;
   std::optional<std::array<uint8_t, 3>> background;
   uint64_t residentBytes = 0;
+  bool recalibrate = false;
 };
 
 // `background` says what the program draws behind the model unless told otherwise.
 void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& background);
 Result<DrawPlan> planOf(const DrawOptions& options);
+
+// Where a time budget is given, or `recalibrate`: what drawing costs on this machine, in place of the default.
+Result<> applyMachineCosts(GlContext& context, bool recalibrate, RenderSettings& settings);
 
 // The camera asked for, or an overview of the model in a picture of that shape.
 Result<Camera> chooseCamera(const DrawOptions& options, const Model& model, int width, int height);

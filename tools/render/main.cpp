@@ -28,9 +28,22 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 }
 
 nlohmann::json frameJson(const FrameStats& stats) {
-  return {{"wallMs", stats.wallMs},      {"cpuMs", stats.cpuMs},         {"triangles", stats.triangles},
-          {"meshes", stats.meshes},      {"impostors", stats.impostors}, {"texels", stats.texels},
-          {"bytesRead", stats.bytesRead}};
+  return {{"wallMs", stats.wallMs},
+          {"cpuMs", stats.cpuMs},
+          {"triangles", stats.triangles},
+          {"meshes", stats.meshes},
+          {"impostors", stats.impostors},
+          {"texels", stats.texels},
+          {"bytesRead", stats.bytesRead},
+          {"expectedMs", stats.expectedMs},
+          {"expectedLoss", stats.expectedLoss},
+          {"lossBound", stats.lossBound},
+          {"hidden",
+           {{"cells", stats.hiddenCells},
+            {"triangles", stats.hiddenTriangles},
+            {"bytes", stats.hiddenBytes},
+            {"expectedMs", stats.hiddenMs},
+            {"searchMs", stats.occlusionMs}}}};
 }
 
 // Frames after the first, which reads the pack; the first where it is the only one.
@@ -69,13 +82,14 @@ Result<> writeFigures(const std::string& path, const std::string& renderer, Show
 }
 
 Result<> run(const RenderOptions& options) {
-  FARCELL_ASSIGN(const DrawPlan plan, planOf(options));
+  FARCELL_ASSIGN(DrawPlan plan, planOf(options));
   if (options.output.empty() && options.statsFile.empty())
     return fail(ErrorKind::invalidArgument, "nothing to do: neither -o nor --json is given");
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   FARCELL_ASSIGN(const Camera camera,
                  chooseCamera(options, pack.directory().model, plan.settings.width, plan.settings.height));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
+  FARCELL_TRY(applyMachineCosts(context, plan.recalibrate, plan.settings));
   FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, plan.residentBytes));
   std::vector<FrameStats> frames;
   for (int i = 0; i < options.repeat; ++i) {

@@ -26,7 +26,8 @@ Result<> writeFigures(const std::string& path, const FrameFigures& figures) {
                       {"meshes", stats.meshes},
                       {"impostors", stats.impostors},
                       {"texels", stats.texels},
-                      {"bytesRead", stats.bytesRead}});
+                      {"bytesRead", stats.bytesRead},
+                      {"expectedMs", stats.expectedMs}});
   }
   const nlohmann::json json = {{"openGl", figures.openGl},      {"width", figures.sizePx.x},
                                {"height", figures.sizePx.y},    {"medianMs", figures.medianMs()},

@@ -19,6 +19,8 @@ std::string renderCommand(const DrawOptions& options, const RenderSettings& sett
       pack, cameraFile, settings.width, settings.height, modeName(settings.selection.mode), kindName(settings.kind),
       settings.samplesPerPixel, settings.selection.triangleBudget, settings.selection.texelPixels,
       settings.selection.meshPixels);
+  if (settings.selection.timeBudgetMs > 0)
+    command += fmt::format(" --time-budget-ms {}", settings.selection.timeBudgetMs);
   if (settings.show != Show::picture) command += fmt::format(" --show {}", showName(settings.show));
   if (!options.background.empty()) command += " --background " + options.background;
   return command;

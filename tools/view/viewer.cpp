@@ -65,8 +65,10 @@ Result<Viewer> Viewer::open(const ViewOptions& options, const DrawPlan& plan) {
                                               .width = plan.settings.width,
                                               .height = plan.settings.height,
                                               .waitForScreen = options.frames == 0}));
+  DrawPlan calibrated = plan;
+  FARCELL_TRY(applyMachineCosts(window.context(), plan.recalibrate, calibrated.settings));
   FARCELL_ASSIGN(Scene scene, openScene(std::move(pack), camera, window.context(), plan.residentBytes));
-  return Viewer(options, plan, std::move(window), std::move(scene));
+  return Viewer(options, calibrated, std::move(window), std::move(scene));
 }
 
 Viewer::Viewer(const ViewOptions& options, const DrawPlan& plan, Window window, Scene scene)

@@ -23,6 +23,15 @@ struct Way {
   RenderSettings settings;
 };
 
+Way automatic(double millisecondPrice, uint64_t triangleBudget, double timeBudgetMs = 0) {
+  Way result{fmt::format("auto-price-{}-triangles-{}k-ms-{}", millisecondPrice, triangleBudget / 1000, timeBudgetMs),
+             {}};
+  result.settings.selection.millisecondPrice = millisecondPrice;
+  result.settings.selection.triangleBudget = triangleBudget;
+  result.settings.selection.timeBudgetMs = timeBudgetMs;
+  return result;
+}
+
 Way way(const std::string& name, RenderMode mode, int samples, double meshPixels, double texelPixels = kTexelPixels) {
   Way result{name, {}};
   result.settings.samplesPerPixel = samples;
@@ -34,12 +43,12 @@ Way way(const std::string& name, RenderMode mode, int samples, double meshPixels
 
 std::vector<Way> allWays() {
   std::vector<Way> ways = {way("full-1spp", RenderMode::full, 1, 0), way("full-4spp", RenderMode::full, 4, 0)};
-  for (const double pixels : {0.5, 1.0, 2.0})
-    ways.push_back(way(fmt::format("A-{}px", pixels), RenderMode::impostors, 4, 0, pixels));
-  for (const double pixels : {0.5, 1.0, 2.0})
-    ways.push_back(way(fmt::format("lod-{}px", pixels), RenderMode::meshes, 4, pixels));
-  for (const double pixels : {0.0, 0.5, 1.0, 2.0})
-    ways.push_back(way(fmt::format("auto-mesh-{}px", pixels), RenderMode::automatic, 4, pixels));
+  ways.push_back(way("A-0.5px", RenderMode::impostors, 4, 0, 0.5));
+  ways.push_back(way("lod-1px", RenderMode::meshes, 4, 1));
+  ways.push_back(way("auto-no-meshes", RenderMode::automatic, 4, 0));
+  for (const double price : {0.0, 4.0, 8.0, 16.0, 28.0}) ways.push_back(automatic(price, 500'000));
+  for (const uint64_t budget : {250'000, 1'000'000, 2'000'000}) ways.push_back(automatic(kMillisecondPrice, budget));
+  for (const double ms : {50.0, 100.0, 200.0, 400.0}) ways.push_back(automatic(0, 1'000'000'000, ms));
   return ways;
 }
 
@@ -72,10 +81,11 @@ Result<> benchCamera(Renderer& renderer, const Camera& camera, const ReferenceIm
     const Metrics metrics =
         measure(reference, {image.width, image.height, image.rgba, image.impostorCoverage}, kBackground, nullptr);
     if (i == 0) baseline = metrics.paperError;
-    std::printf("%s,%s,%.4f,%.4f,%.4f,%.2f,%.2f,%llu,%llu,%llu\n", camera.name.c_str(), ways[i].name.c_str(),
-                metrics.paperError / baseline, 100 * metrics.holeRate, metrics.impostorShare, median(wallMs[i]),
-                median(cpuMs[i]), static_cast<unsigned long long>(stats[i].triangles),
-                static_cast<unsigned long long>(stats[i].meshes), static_cast<unsigned long long>(stats[i].impostors));
+    std::printf("%s,%s,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f,%.4f,%.4f,%llu,%llu,%llu\n", camera.name.c_str(),
+                ways[i].name.c_str(), metrics.paperError / baseline, 100 * metrics.holeRate, metrics.impostorShare,
+                median(wallMs[i]), median(cpuMs[i]), stats[i].expectedMs, stats[i].expectedLoss, stats[i].lossBound,
+                static_cast<unsigned long long>(stats[i].triangles), static_cast<unsigned long long>(stats[i].meshes),
+                static_cast<unsigned long long>(stats[i].impostors));
     std::fflush(stdout);
   }
   return {};
@@ -86,7 +96,9 @@ Result<> bench(const std::string& path, const std::string& words, size_t every, 
   FARCELL_ASSIGN(const std::vector<Camera> cameras, loadCameras(words, pack.directory().model));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
   FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, kResidentBytes));
-  std::printf("camera,way,ratioToFull1spp,holePercent,impostorShare,wallMs,cpuMs,triangles,meshes,impostors\n");
+  std::printf(
+      "camera,way,ratioToFull1spp,holePercent,impostorShare,wallMs,cpuMs,expectedMs,expectedLoss,lossBound,triangles,"
+      "meshes,impostors\n");
   for (size_t i = 0; i < cameras.size(); i += every) {
     FARCELL_ASSIGN(const ReferenceImage reference, traceReference(pack, cameras[i], {}));
     FARCELL_TRY(benchCamera(renderer, cameras[i], reference, frames));

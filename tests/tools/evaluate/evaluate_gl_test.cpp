@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/support/evaluate_models.h"
+#include "tools/image/png.h"
 
 namespace farcell {
 namespace {
@@ -159,6 +160,117 @@ TEST_F(EvaluateProgram, ACameraThatSeesNothingIsReportedButDoesNotCount) {
   const Json json = report();
   EXPECT_TRUE(json.at("entries")[0].at("ratioToFull1spp").is_null());
   EXPECT_EQ(json.at("summary").at("full-4spp").at("cameras"), 1);
+}
+
+TEST_F(EvaluateProgram, RenderersOfAnotherPackOfTheSameModelAreInTheSameRun) {
+  const testing::TestModel model = testing::sphereModel({100, 200, 300}, 10, 4);
+  testing::writeTestPack(model, path("root.far"), PackFile::open(path("sphere.far"))->directory().sourceHash, true);
+  ASSERT_EQ(run("sphere.far --against root=root.far --cameras cameras.json --renderers auto,triangles@root,lod-as-auto "
+                "--size 60x40 --frames 1 --reference-samples 4 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json json = report();
+  ASSERT_EQ(json.at("entries").size(), 2u * 5);
+  const Json& other = json.at("entries")[4];
+  EXPECT_EQ(other.at("renderer"), "triangles@root");
+  EXPECT_EQ(other.at("paperError"), json.at("entries")[1].at("paperError")) << "the same triangles at four samples";
+  EXPECT_EQ(json.at("against").at("root").at("name"), "root.far");
+  EXPECT_NEAR(json.at("against").at("root").at("bytesToPack").get<double>(),
+              static_cast<double>(std::filesystem::file_size(path("root.far"))) /
+                  static_cast<double>(std::filesystem::file_size(path("sphere.far"))),
+              1e-9);
+  const Json& lod = json.at("entries")[3];
+  EXPECT_EQ(lod.at("renderer"), "lod-as-auto");
+  EXPECT_GE(lod.at("settings").at("meshPixels"), 0.01);
+  EXPECT_LE(lod.at("settings").at("meshPixels"), 100);
+}
+
+TEST_F(EvaluateProgram, AnOctahedralImpostorIsAmongTheRenderersOfCameras) {
+  ASSERT_EQ(run("sphere.far --cameras cameras.json --renderers auto,octahedral --size 60x40 --frames 1 "
+                "--reference-samples 4 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json entry = report().at("entries")[3];
+  EXPECT_EQ(entry.at("renderer"), "octahedral");
+  EXPECT_GE(entry.at("settings").at("frameEdge"), 16);
+  EXPECT_EQ(entry.at("impostors"), 1);
+  EXPECT_GT(entry.at("impostorShare"), 0.99);
+  EXPECT_GT(entry.at("psnr"), 15);
+}
+
+TEST_F(EvaluateProgram, APackOfAnotherModelIsRefused) {
+  testing::writeTestPack(testing::sphereModel({100, 200, 300}, 10, 4), path("other.far"), 12345);
+  const std::string rest = " --cameras cameras.json --size 60x40 -o report";
+  EXPECT_EQ(run("sphere.far --against x=other.far" + rest), 2);
+  const std::string message = textOf(path("stderr"));
+  EXPECT_NE(message.find("other.far: not a pack of the same model as sphere.far"), std::string::npos) << message;
+  EXPECT_NE(message.find("0000000000003039"), std::string::npos) << "both hashes";
+  for (const char* wrong : {"other.far", "=other.far", "a,b=other.far", "x="}) {
+    EXPECT_EQ(run(std::string("sphere.far --against '") + wrong + "'" + rest), 2) << wrong;
+    EXPECT_NE(textOf(path("stderr")).find("expected NAME=PACK"), std::string::npos) << wrong;
+  }
+  EXPECT_EQ(run("sphere.far --against x=sphere.far --against x=sphere.far" + rest), 2);
+  EXPECT_EQ(run("sphere.far --against x=absent.far" + rest), 1);
+  EXPECT_FALSE(std::filesystem::exists(path("report")));
+}
+
+// Mean |a - b| over the pixels and channels of two pictures.
+double meanDifference(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto first = readPng(a, 1 << 20), second = readPng(b, 1 << 20);
+  if (!first || !second || first->pixels.size() != second->pixels.size()) {
+    ADD_FAILURE() << a << " and " << b;
+    return 0;
+  }
+  double sum = 0;
+  for (size_t i = 0; i < first->pixels.size(); ++i) sum += std::abs(int(first->pixels[i]) - int(second->pixels[i]));
+  return sum / static_cast<double>(first->pixels.size());
+}
+
+TEST_F(EvaluateProgram, APathHasErrorAndFlickerOfEachFrame) {
+  writeCameras(R"({"name":"a","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40,"time":0},
+                  {"name":"b","position":[139,213,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40,"time":3})");
+  ASSERT_EQ(run("sphere.far --path cameras.json --path orbit --path-frames 2 --renderers full-16spp --size 120x80 "
+                "--reference-samples 16 -o report"),
+            0)
+      << textOf(path("stderr"));
+  const Json json = report();
+  EXPECT_EQ(json.at("entries").size(), 0u);
+  ASSERT_EQ(json.at("paths").size(), 2u);
+  const Json& drive = json.at("paths")[0];
+  EXPECT_EQ(drive.at("name"), "cameras");
+  EXPECT_EQ(drive.at("frames"), 2);
+  ASSERT_EQ(drive.at("renderers").size(), 3u);
+  const std::string stem = drive.at("stem");
+  for (const Json& run : drive.at("renderers")) {
+    const std::string name = "report/" + stem + "." + run.at("renderer").get<std::string>();
+    const Json& frames = run.at("frames");
+    EXPECT_NEAR(frames.at("ownChange")[1], meanDifference(path(name + ".worst-before.png"), path(name + ".worst.png")),
+                0.3)
+        << "pictures are rounded";
+    EXPECT_GT(frames.at("ownChange")[1], 0.5);
+    EXPECT_EQ(frames.at("flicker")[0], 0);
+    EXPECT_EQ(run.at("summary").at("switchFrames"), 0) << "all frames draw every triangle";
+    EXPECT_GT(frames.at("bytesRead")[0], 0);
+    EXPECT_EQ(frames.at("bytesRead")[1], 0) << "pages stay";
+  }
+  const auto flicker = [&](size_t run) {
+    return drive.at("renderers")[run].at("summary").at("meanFlicker").get<double>();
+  };
+  EXPECT_LT(flicker(1), flicker(0));
+  EXPECT_LT(flicker(2), flicker(1));
+  EXPECT_LT(flicker(2), drive.at("renderers")[2].at("summary").at("referenceChange"));
+  const std::string lines = textOf(path("report/paths.csv"));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 2 * 2 * 3);
+  EXPECT_EQ(Json::parse(textOf(path("report/" + stem + ".cameras.json"))).at("cameras").size(), 2u);
+}
+
+TEST_F(EvaluateProgram, APathThatCannotBeIsAnErrorBeforeAnyWork) {
+  writeCameras(R"({"name":"a","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40})");
+  EXPECT_EQ(run("sphere.far --path cameras.json -o report"), 2);
+  EXPECT_NE(textOf(path("stderr")).find("cameras.json: a path needs two cameras"), std::string::npos);
+  EXPECT_EQ(run("sphere.far --path absent.json -o report"), 1);
+  EXPECT_EQ(run("sphere.far --path orbit --path-frames 1 -o report"), 2);
+  EXPECT_FALSE(std::filesystem::exists(path("report")));
 }
 
 TEST_F(EvaluateProgram, AnInterruptKeepsTheCamerasThatWereFinished) {

@@ -139,4 +139,11 @@ Metrics measure(const ReferenceImage& reference, const TestImage& test, const Co
   return metrics;
 }
 
+double paperError(const ReferenceImage& reference, std::span<const float> truth, std::span<const float> own) {
+  FARCELL_CHECK(truth.size() == own.size() && truth.size() == 3 * reference.coverage.size());
+  double sum = 0;
+  for (size_t i = 0; i < own.size(); ++i) sum += std::abs(own[i] - truth[i]);
+  return ratio(sum, static_cast<double>(foregroundRectangle(reference).pixels()));
+}
+
 }  // namespace farcell

@@ -43,6 +43,9 @@ struct Metrics {
 Metrics measure(const ReferenceImage& reference, const TestImage& test, const Colour& background,
                 std::vector<float>* flipMap = nullptr);
 
+// Metrics::paperError alone. truth, own: reference and picture, composited, 3 a pixel.
+double paperError(const ReferenceImage& reference, std::span<const float> truth, std::span<const float> own);
+
 // Wang, Bovik, Sheikh, Simoncelli, Image quality assessment: from error visibility to structural similarity, 2004:
 // Gaussian window of 11 x 11 pixels, sigma 1.5, K1 .01, K2 .03, on luma (Rec. 601 weights of R, G, B in 0-255); a
 // window at the image's border counts only its pixels inside. Returns one value a pixel. `a` and `b`: 3 a pixel.

@@ -16,7 +16,7 @@ namespace {
 // Values are doubles: counts below 2^53 are exact in them, and parseCount() goes through one.
 struct Setting {
   const char* name;
-  bool (*isOf)(RenderMode mode);
+  bool (*isOf)(const RendererPlan& plan);
   Result<double> (*parse)(const std::string& text);
   std::string (*text)(double value);  // one for each value, however it was written
   void (*set)(SelectionSettings& settings, double value);
@@ -27,13 +27,12 @@ struct Sweep {
   std::vector<double> values;
 };
 
-Result<double> parseTexelPixels(const std::string& text) {
+Result<double> parseNumber(const std::string& text, double least, double most) {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc{} || read.ptr != end || !(value >= kLeastTexelPixels && value <= kMostTexelPixels))
-    return fail(ErrorKind::invalidArgument, "expected a number from {} to {}, found '{}'", kLeastTexelPixels,
-                kMostTexelPixels, text);
+  if (read.ec != std::errc{} || read.ptr != end || !(value >= least && value <= most))
+    return fail(ErrorKind::invalidArgument, "expected a number from {} to {}, found '{}'", least, most, text);
   return value;
 }
 
@@ -54,12 +53,28 @@ std::string countText(double value) {
   return fmt::format("{}{}", count, unit);
 }
 
+std::string numberText(double value) { return fmt::format("{}", value); }
+
 constexpr std::array kSettings = {
-    Setting{"texel-pixels", usesTexelPixels, parseTexelPixels, [](double value) { return fmt::format("{}", value); },
+    Setting{"texel-pixels", [](const RendererPlan& plan) { return usesTexelPixels(plan.settings.selection.mode); },
+            [](const std::string& text) { return parseNumber(text, kLeastTexelPixels, kMostTexelPixels); }, numberText,
             [](SelectionSettings& settings, double value) { settings.texelPixels = value; }},
-    Setting{"triangle-budget", usesTriangleBudget, parseBudget, countText,
+    Setting{
+        "mesh-pixels",
+        [](const RendererPlan& plan) { return usesMeshPixels(plan.settings.selection.mode) && plan.timeOf.empty(); },
+        [](const std::string& text) { return parseNumber(text, 0, kMostMeshPixels); }, numberText,
+        [](SelectionSettings& settings, double value) { settings.meshPixels = value; }},
+    Setting{"triangle-budget",
+            [](const RendererPlan& plan) { return usesTriangleBudget(plan.settings.selection.mode); }, parseBudget,
+            countText,
             [](SelectionSettings& settings, double value) { settings.triangleBudget = static_cast<uint64_t>(value); }},
 };
+
+std::string knownSettings() {
+  std::string text;
+  for (const Setting& setting : kSettings) text += fmt::format("{}{}=VALUES", text.empty() ? "" : ", ", setting.name);
+  return text;
+}
 
 Result<Sweep> parseSweep(const std::string& text) {
   const size_t equals = std::min(text.find('='), text.size());
@@ -67,8 +82,7 @@ Result<Sweep> parseSweep(const std::string& text) {
   const auto* setting = std::find_if(kSettings.begin(), kSettings.end(),
                                      [&](const Setting& candidate) { return candidate.name == name; });
   if (setting == kSettings.end() || equals == text.size())
-    return fail(ErrorKind::invalidArgument,
-                "--sweep: expected texel-pixels=VALUES or triangle-budget=VALUES, found '{}'", text);
+    return fail(ErrorKind::invalidArgument, "--sweep: expected one of {}; found '{}'", knownSettings(), text);
   Sweep sweep{setting, {}};
   // The comma at the end makes an empty value of nothing between commas, also at the end.
   std::istringstream stream(text.substr(equals + 1) + ",");
@@ -82,7 +96,7 @@ Result<Sweep> parseSweep(const std::string& text) {
 }
 
 Result<std::vector<RendererPlan>> applySweep(const std::vector<RendererPlan>& plans, const Sweep& sweep) {
-  const auto isSwept = [&](const RendererPlan& plan) { return sweep.setting->isOf(plan.settings.selection.mode); };
+  const auto isSwept = [&](const RendererPlan& plan) { return sweep.setting->isOf(plan); };
   const auto swept = static_cast<size_t>(std::count_if(plans.begin(), plans.end(), isSwept));
   if (swept == 0)
     return fail(ErrorKind::invalidArgument, "--sweep {}: none of the renderers has this setting", sweep.setting->name);

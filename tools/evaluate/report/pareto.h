@@ -8,7 +8,7 @@ namespace farcell {
 
 struct ErrorAndTime {
   double error = 0;
-  double ms = 0;
+  double ms = 0;  // or another cost
 };
 
 // For each point whether it lies on the front: no other is at most as large in both and smaller in one of them. Equal

@@ -9,7 +9,7 @@
 namespace farcell {
 namespace {
 
-Result<> writeRgb(const std::filesystem::path& path, int width, int height, const std::vector<float>& values) {
+Result<> writeRgb(const std::filesystem::path& path, int width, int height, std::span<const float> values) {
   Picture picture{width, height, 3, {}};
   picture.pixels.reserve(values.size());
   for (const float value : values)
@@ -45,6 +45,18 @@ Result<> writeRendererPictures(const std::filesystem::path& directory, const Ren
   for (size_t i = 0; i < own.size(); ++i) own[i] = kDifferenceGain * std::abs(own[i] - truth[i]);
   FARCELL_TRY(writeRgb(directory / (name + ".difference.png"), width, height, own));
   return writeMap(directory / (name + ".flip.png"), width, height, picture.flip);
+}
+
+Result<> writeWorstFrame(const std::filesystem::path& directory, const WorstFrame& frame) {
+  const auto write = [&](const char* end, std::span<const float> values) {
+    return writeRgb(directory / (frame.name + end), frame.width, frame.height, values);
+  };
+  FARCELL_TRY(write(".worst-before.png", frame.before));
+  FARCELL_TRY(write(".worst.png", frame.now));
+  FARCELL_TRY(write(".worst-reference.png", frame.reference));
+  std::vector<float> bright(frame.flicker.begin(), frame.flicker.end());
+  for (float& value : bright) value *= kDifferenceGain;
+  return write(".worst-flicker.png", bright);
 }
 
 }  // namespace farcell

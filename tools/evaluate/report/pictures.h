@@ -27,4 +27,15 @@ struct RendererPicture {
 Result<> writeRendererPictures(const std::filesystem::path& directory, const RendererPicture& picture,
                                const ReferenceImage& reference, const Colour& background);
 
+// Of the frame of a path in which a renderer flickers most; each of 3 values a pixel, 0-255.
+struct WorstFrame {
+  std::string name;  // <stem of the path>.<renderer>
+  int width = 0, height = 0;
+  std::span<const float> before, now;  // the renderer's pictures, composited
+  std::span<const float> reference;    // of `now`
+  std::span<const float> flicker;      // measureChange()'s map
+};
+// <name>.worst-before.png, .worst.png, .worst-reference.png and .worst-flicker.png, which is kDifferenceGain brighter.
+Result<> writeWorstFrame(const std::filesystem::path& directory, const WorstFrame& frame);
+
 }  // namespace farcell

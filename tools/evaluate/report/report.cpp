@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "shaders/shared/shading.h"
+#include "tools/evaluate/report/fields.h"
 #include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/summary.h"
 
@@ -16,55 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* modeName(RenderMode mode) {
-  switch (mode) {
-    case RenderMode::automatic:
-      return "auto";
-    case RenderMode::impostors:
-      return "impostors";
-    case RenderMode::meshes:
-      return "meshes";
-    case RenderMode::triangles:
-      return "triangles";
-    case RenderMode::full:
-      return "full";
-  }
-  return "";
-}
-
-const char* kindName(ImpostorKind kind) {
-  switch (kind) {
-    case ImpostorKind::flat:
-      return "flat";
-    case ImpostorKind::depthCorrected:
-      return "A";
-    case ImpostorKind::blended:
-      return "B";
-  }
-  return "";
-}
-
-Json settingsJson(const RenderSettings& settings) {
-  Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
-  if (usesTexelPixels(settings.selection.mode)) {
-    json["kind"] = kindName(settings.kind);
-    json["texelPixels"] = settings.selection.texelPixels;
-  }
-  if (settings.selection.mode == RenderMode::automatic || settings.selection.mode == RenderMode::meshes)
-    json["meshPixels"] = settings.selection.meshPixels;
-  if (usesTriangleBudget(settings.selection.mode)) json["triangleBudget"] = settings.selection.triangleBudget;
-  return json;
-}
-
-Json optionalJson(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json entryJson(const Entry& entry) {
   const Metrics& m = entry.metrics;
   return {{"camera", entry.camera},
           {"stem", entry.stem},
           {"renderer", entry.renderer.name},
           {"class", entry.renderer.rendererClass},
-          {"settings", settingsJson(entry.renderer.settings)},
+          {"kind", entry.renderer.kind},
+          {"settings", settingsJson(entry.renderer)},
           {"paperErrorSum", m.paperErrorSum},
           {"paperError", m.paperError},
           {"ratioToFull1spp", optionalJson(entry.ratioToFull1spp)},
@@ -100,6 +60,7 @@ Json ratiosJson(const RatioSummary& ratios) {
 
 Json summaryJson(const RendererSummary& summary) {
   return {{"class", summary.rendererClass},
+          {"kind", summary.kind},
           {"ratioToFull1spp", optionalJson(summary.all.ratioToFull1spp)},
           {"worstRatio", optionalJson(summary.all.worstRatio)},
           {"cameras", summary.all.cameras},
@@ -107,9 +68,13 @@ Json summaryJson(const RendererSummary& summary) {
           {"elsewhere", ratiosJson(summary.elsewhere)},
           {"medianFrameMs", summary.medianFrameMs},
           {"medianTriangles", summary.medianTriangles},
+          {"medianBytesRead", summary.medianBytesRead},
           {"worstHoleRate", summary.worstHoleRate},
           {"meanFlip", summary.meanFlip},
-          {"onParetoFront", summary.onParetoFront}};
+          {"onParetoFront", summary.onParetoFront},
+          {"onKindFront", summary.onKindFront},
+          {"onBytesFront", summary.onBytesFront},
+          {"onKindBytesFront", summary.onKindBytesFront}};
 }
 
 std::string processorName() {
@@ -119,24 +84,35 @@ std::string processorName() {
   return "unknown";
 }
 
-Json packJson(const ReportFacts& facts) {
-  const BuildSettings& settings = facts.directory->model.settings;
-  return {{"name", facts.packName},
-          {"bytes", facts.packBytes},
-          {"source", facts.directory->sourceName},
-          {"sourceHash", fmt::format("{:016x}", facts.directory->sourceHash)},
-          {"triangles", facts.directory->report.inputTriangles},
+Json packJson(const std::string& fileName, uint64_t bytes, const Directory& directory) {
+  const BuildSettings& settings = directory.model.settings;
+  return {{"name", fileName},
+          {"bytes", bytes},
+          {"source", directory.sourceName},
+          {"sourceHash", fmt::format("{:016x}", directory.sourceHash)},
+          {"triangles", directory.report.inputTriangles},
           {"views", settings.views},
           {"imageSize", settings.imageSize},
           {"samples", settings.samples},
           {"leafTriangles", settings.leafTriangles}};
 }
 
+// By name; with their bytes over those of the pack that is evaluated.
+Json againstJson(const ReportFacts& facts) {
+  Json json = Json::object();
+  for (const OtherPackFacts& other : facts.against) {
+    json[other.name] = packJson(other.fileName, other.bytes, *other.directory);
+    json[other.name]["bytesToPack"] = static_cast<double>(other.bytes) / static_cast<double>(facts.packBytes);
+  }
+  return json;
+}
+
 Json factsJson(const ReportFacts& facts) {
   const glm::vec3 sun = sunDirection(facts.directory->model.settings.up);
   return {{"version", FARCELL_VERSION},
           {"complete", facts.complete},
-          {"pack", packJson(facts)},
+          {"pack", packJson(facts.packName, facts.packBytes, *facts.directory)},
+          {"against", againstJson(facts)},
           {"size", {facts.width, facts.height}},
           {"background", facts.background},
           {"light", {{"sun", {sun.x, sun.y, sun.z}}, {"ambient", shared::kAmbient}, {"diffuse", shared::kDiffuse}}},
@@ -150,56 +126,11 @@ Json factsJson(const ReportFacts& facts) {
           {"gl", facts.glRenderer}};
 }
 
-// RFC 4180.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-// Objects become one column a member: frameMs.median.
-void appendFields(const Json& json, const std::string& prefix, bool names, std::vector<std::string>& fields) {
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_object())
-      appendFields(value, prefix + key + ".", names, fields);
-    else if (names)
-      fields.push_back(csvField(prefix + key));
-    else
-      fields.push_back(value.is_null() ? "" : value.is_string() ? csvField(value.get<std::string>()) : value.dump());
-  }
-}
-
-// Settings differ in their members from renderer to renderer: one column of text keeps the lines equal.
-Json flatSettings(Json entry) {
-  std::string text;
-  for (const auto& [key, value] : entry["settings"].items())
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", key,
-                        value.is_string() ? value.get<std::string>() : value.dump());
-  entry["settings"] = text;
-  return entry;
-}
-
-std::string csvLine(const Json& json, bool names) {
-  std::vector<std::string> fields;
-  appendFields(json, "", names, fields);
-  return fmt::format("{}\n", fmt::join(fields, ","));
-}
-
 Json summaryLineJson(const RendererSummary& summary) {
   Json json = {{"renderer", summary.renderer}};
   json.update(summaryJson(summary));
   return json;
 }
-
-// A camera's name goes to a terminal: no control characters.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return text;
-}
-
-std::string optionalText(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : "-"; }
 
 // Of the column of renderers.
 size_t nameWidth(const std::vector<Entry>& entries) {
@@ -239,8 +170,8 @@ Json reportJson(const ReportFacts& facts, const std::vector<Entry>& entries) {
 }
 
 std::string reportCsv(const std::vector<Entry>& entries) {
-  std::string text = csvLine(flatSettings(entryJson({})), true);
-  for (const Entry& entry : entries) text += csvLine(flatSettings(entryJson(entry)), false);
+  std::string text = csvLine(entryJson({}), true);
+  for (const Entry& entry : entries) text += csvLine(entryJson(entry), false);
   return text;
 }
 

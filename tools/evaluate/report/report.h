@@ -12,11 +12,20 @@
 
 namespace farcell {
 
+// A pack that others are compared with by renderers "...@name".
+struct OtherPackFacts {
+  std::string name;
+  std::string fileName;
+  uint64_t bytes = 0;
+  const Directory* directory = nullptr;
+};
+
 // How the figures were made.
 struct ReportFacts {
   std::string packName;  // file name
   uint64_t packBytes = 0;
   const Directory* directory = nullptr;  // of the pack
+  std::vector<OtherPackFacts> against;
   int width = 0;
   int height = 0;
   int timedFrames = 0;

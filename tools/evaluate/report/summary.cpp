@@ -29,32 +29,57 @@ RatioSummary summariseRatios(std::span<const Entry> entries, const std::function
 RendererSummary summariseRenderer(std::span<const Entry> entries, const RendererPlan& renderer) {
   const auto own = [&](const Entry& entry) { return entry.renderer.name == renderer.name; };
   const auto impostors = [&](const Entry& entry) { return entry.metrics.impostorShare >= kMostlyImpostors; };
-  RendererSummary summary{renderer.name, renderer.rendererClass, {}, {}, {}, 0, 0, 0, 0, false};
+  RendererSummary summary;
+  summary.renderer = renderer.name;
+  summary.rendererClass = renderer.rendererClass;
+  summary.kind = renderer.kind;
   summary.all = summariseRatios(entries, own);
   summary.mostlyImpostors = summariseRatios(entries, [&](const Entry& e) { return own(e) && impostors(e); });
   summary.elsewhere = summariseRatios(entries, [&](const Entry& e) { return own(e) && !impostors(e); });
-  std::vector<double> frames, triangles;
+  std::vector<double> frames, triangles, bytes;
   for (const Entry& entry : entries) {
     if (!own(entry)) continue;
     frames.push_back(entry.frame.medianMs);
     triangles.push_back(static_cast<double>(entry.triangles));
+    bytes.push_back(static_cast<double>(entry.bytesRead));
     summary.worstHoleRate = std::max(summary.worstHoleRate, entry.metrics.holeRate);
     summary.meanFlip += entry.metrics.flip;
   }
   summary.medianFrameMs = medianOf(frames);
   summary.medianTriangles = medianOf(triangles);
+  summary.medianBytesRead = medianOf(bytes);
   summary.meanFlip /= static_cast<double>(frames.size());
   return summary;
 }
 
-void markFront(std::vector<RendererSummary>& summaries) {
+// Marks those of `members` that lie on their front of ratio and cost.
+void markFront(std::vector<RendererSummary>& summaries, const std::vector<size_t>& members,
+               double RendererSummary::*cost, bool RendererSummary::*mark) {
   std::vector<ErrorAndTime> points;
-  for (const RendererSummary& summary : summaries)
+  for (const size_t i : members)
     points.push_back(
-        {summary.all.ratioToFull1spp.value_or(std::numeric_limits<double>::infinity()), summary.medianFrameMs});
+        {summaries[i].all.ratioToFull1spp.value_or(std::numeric_limits<double>::infinity()), summaries[i].*cost});
   const std::vector<bool> front = paretoFront(points);
-  for (size_t i = 0; i < summaries.size(); ++i)
-    summaries[i].onParetoFront = front[i] && summaries[i].all.ratioToFull1spp.has_value();
+  for (size_t k = 0; k < members.size(); ++k) {
+    RendererSummary& summary = summaries[members[k]];
+    summary.*mark = front[k] && summary.all.ratioToFull1spp.has_value();
+  }
+}
+
+void markFronts(std::vector<RendererSummary>& summaries) {
+  std::map<std::string, std::vector<size_t>> kinds;
+  std::vector<size_t> all;
+  for (size_t i = 0; i < summaries.size(); ++i) {
+    kinds[summaries[i].kind].push_back(i);
+    all.push_back(i);
+  }
+  using Summary = RendererSummary;
+  markFront(summaries, all, &Summary::medianFrameMs, &Summary::onParetoFront);
+  markFront(summaries, all, &Summary::medianBytesRead, &Summary::onBytesFront);
+  for (const auto& [kind, members] : kinds) {
+    markFront(summaries, members, &Summary::medianFrameMs, &Summary::onKindFront);
+    markFront(summaries, members, &Summary::medianBytesRead, &Summary::onKindBytesFront);
+  }
 }
 
 }  // namespace
@@ -78,7 +103,7 @@ std::vector<RendererSummary> summarise(std::span<const Entry> entries) {
     });
     if (!known) summaries.push_back(summariseRenderer(entries, entry.renderer));
   }
-  markFront(summaries);
+  markFronts(summaries);
   return summaries;
 }
 

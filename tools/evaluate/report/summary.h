@@ -22,14 +22,19 @@ inline constexpr double kMostlyImpostors = 0.8;  // impostorShare from which a c
 struct RendererSummary {
   std::string renderer;
   std::string rendererClass;
+  std::string kind;  // RendererPlan::kind
   RatioSummary all;
   RatioSummary mostlyImpostors;  // entries with impostorShare >= kMostlyImpostors
   RatioSummary elsewhere;
   double medianFrameMs = 0;    // median over cameras of the medians
   double medianTriangles = 0;  // over cameras
+  double medianBytesRead = 0;  // over cameras, of the cold frame
   double worstHoleRate = 0;
-  double meanFlip = 0;         // over cameras
-  bool onParetoFront = false;  // of all.ratioToFull1spp and medianFrameMs; false without a ratio
+  double meanFlip = 0;  // over cameras
+  // Pareto fronts of all.ratioToFull1spp and medianFrameMs or medianBytesRead, of all renderers or of those of its
+  // kind; false without a ratio.
+  bool onParetoFront = false, onKindFront = false;
+  bool onBytesFront = false, onKindBytesFront = false;
 };
 
 // Sets each entry's ratio from the baseline entry of the same camera. REQUIRES: no two cameras of one name.

@@ -49,6 +49,37 @@ TEST(RendererPlan, EveryNameHasItsClassModeAndKind) {
   EXPECT_EQ((*plans)[9].settings.kind, ImpostorKind::blended);
 }
 
+TEST(RendererPlan, RenderersOfOtherPacksAreNamedAfterThem) {
+  const std::vector<std::string> packs = {"paper", "small.far"};
+  const auto plans = planRenderers("lod@paper,auto,flat@small.far,flat@paper,A@paper", 10, 10, {}, 2, packs);
+  ASSERT_TRUE(plans) << plans.error().message;
+  std::string line;
+  for (const RendererPlan& plan : *plans) line += plan.name + ":" + plan.pack + " ";
+  EXPECT_EQ(line,
+            "full-1spp: full-4spp: auto: lod@paper:paper flat@paper:paper A@paper:paper flat@small.far:small.far ");
+  EXPECT_EQ((*plans)[3].kind, "lod@paper");
+  EXPECT_EQ((*plans)[3].settings.selection.meshPixels, 2);
+  EXPECT_EQ((*plans)[4].settings.kind, ImpostorKind::flat);
+  for (const char* wrong : {"flat@absent", "flat@", "@paper", "flat@paper@paper", "lod-as-auto@paper,auto"}) {
+    const auto result = planRenderers(wrong, 10, 10, {}, 2, packs);
+    ASSERT_FALSE(result) << wrong;
+    EXPECT_EQ(result.error().kind, ErrorKind::invalidArgument);
+  }
+}
+
+TEST(RendererPlan, LodAsAutoNeedsAuto) {
+  const auto plans = planRenderers("lod-as-auto,auto,lod", 10, 10, {});
+  ASSERT_TRUE(plans) << plans.error().message;
+  ASSERT_EQ(plans->size(), 5u);
+  EXPECT_EQ(plans->back().name, kLodAsAuto) << "after auto, whose time it takes";
+  EXPECT_EQ(plans->back().timeOf, "auto");
+  EXPECT_EQ(plans->back().settings.selection.mode, RenderMode::meshes);
+  EXPECT_EQ((*plans)[3].timeOf, "");
+  const auto wrong = planRenderers("lod-as-auto,auto-B", 10, 10, {});
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().message.find("needs auto"), std::string::npos);
+}
+
 TEST(RendererPlan, RepetitionsCountOnceAndWrongNamesAreNamed) {
   const auto twice = planRenderers("auto,auto,full-1spp", 10, 10, {});
   ASSERT_TRUE(twice);

@@ -45,6 +45,17 @@ TEST(Sweep, OfTwoSettingsIsTheirProductWhereARendererHasBoth) {
   EXPECT_EQ((*plans)[9].settings.selection.triangleBudget, 0u);
 }
 
+TEST(Sweep, MeshPixelsAreOfRenderersWithSimplifiedMeshes) {
+  const auto plans = sweepOf("A,lod,auto,lod-as-auto", {"mesh-pixels=0,2.5"});
+  ASSERT_EQ(namesOf(plans),
+            "full-1spp full-4spp lod@mesh-pixels=0 lod@mesh-pixels=2.5 A auto@mesh-pixels=0 auto@mesh-pixels=2.5 "
+            "lod-as-auto");
+  EXPECT_EQ((*plans)[3].settings.selection.meshPixels, 2.5);
+  EXPECT_EQ((*plans)[3].kind, "lod");
+  EXPECT_EQ((*plans)[6].settings.selection.meshPixels, 2.5);
+  EXPECT_EQ(plans->back().timeOf, "auto") << "its own is searched";
+}
+
 TEST(Sweep, EqualValuesCountOnceHoweverTheyAreWritten) {
   EXPECT_EQ(namesOf(sweepOf("auto", {"triangle-budget=100k,100000,0.1M"})),
             "full-1spp full-4spp auto@triangle-budget=100k");
@@ -79,6 +90,7 @@ TEST(Sweep, SaysWhatIsWrong) {
       {{"texel-pixels=nan"}, "found 'nan'"},
       {{"texel-pixels=-1"}, "found '-1'"},
       {{"texel-pixels=0.5x"}, "found '0.5x'"},
+      {{"mesh-pixels=-0.1"}, "--sweep mesh-pixels: expected a number from 0 to 100, found '-0.1'"},
       {{"triangle-budget=1q"}, "found '1q'"},
       {{"triangle-budget=-5"}, "found '-5'"},
       {{"triangle-budget="}, "found ''"},

@@ -7,7 +7,9 @@
 
 #include "tests/support/chromium.h"
 #include "tests/support/evaluate_directory.h"
+#include "tools/evaluate/report/equal_report.h"
 #include "tools/evaluate/report/names.h"
+#include "tools/evaluate/report/path_report.h"
 #include "tools/evaluate/report/report.h"
 #include "tools/evaluate/report/summary.h"
 
@@ -34,6 +36,7 @@ std::vector<Entry> entriesOf(const std::vector<std::string>& names) {
       entry.renderer = plan;
       entry.metrics.paperError = 5 + static_cast<double>(entries.size() * 37 % 101);
       entry.metrics.flip = 0.001 * number;
+      entry.metrics.foregroundPixels = 10;
       entry.metrics.psnr = 20 + number / 10;
       entry.frame = frameTimes({1 + number});
       entry.cpuMs = 2 + number;
@@ -60,8 +63,15 @@ class Page : public ::testing::Test {
     facts_.referenceSamples = 64;
   }
 
-  std::filesystem::path write(const std::vector<Entry>& entries, const std::string& script = "") const {
-    std::string page = reportPage(reportJson(facts_, entries));
+  std::filesystem::path write(const std::vector<Entry>& entries, const std::string& script = "",
+                              const std::vector<PathEntry>& paths = {}) const {
+    nlohmann::ordered_json json = reportJson(facts_, entries);
+    json["paths"] = pathsJson(paths);
+    return write(json, script);
+  }
+
+  std::filesystem::path write(const nlohmann::ordered_json& report, const std::string& script) const {
+    std::string page = reportPage(report);
     if (!script.empty()) page.insert(page.rfind("</body>"), "<p id=result></p><script>" + script + "</script>");
     std::ofstream(scratch_.path() / "index.html", std::ios::binary) << page;
     return scratch_.path() / "index.html";
@@ -117,6 +127,31 @@ TEST_F(Page, PlotsEveryRendererAndTheFrontWhateverTheNames) {
   EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
   EXPECT_EQ(dom.find("<title>owned"), std::string::npos);
   EXPECT_NE(dom.find("<title>&lt;/script&gt;"), std::string::npos);
+}
+
+TEST_F(Page, PlotsTheFrontOfBytesAndComparesAtEqualTime) {
+  std::vector<Entry> entries = entriesOf({"one", "two"});
+  nlohmann::ordered_json json = reportJson(facts_, entries);
+  json["equal"] = equalJson(equalTable(entries));
+  const std::string script = R"js(
+    const notes = [], all = (selector) => [...document.querySelectorAll(selector)];
+    const chooser = document.querySelector("#front select");
+    notes.push(all("#front .dot.best").length);
+    chooser.value = "bytes";
+    chooser.dispatchEvent(new Event("change"));
+    notes.push(all("#front .dot.best").length, all("#equal-summary tbody tr").length, all("#equal-cameras tbody tr").length);
+    document.getElementById("result").textContent = notes.join(" | ");
+  )js";
+  size_t time = 0, bytes = 0;
+  for (const RendererSummary& summary : summarise(entries)) {
+    time += summary.onParetoFront ? 1 : 0;
+    bytes += summary.onBytesFront ? 1 : 0;
+  }
+  const std::string dom = chromium_.domOf(write(json, script));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  const std::string expected = fmt::format("<p id=\"result\">{} | {} | 9 | 18</p>", time, bytes);
+  EXPECT_NE(dom.find(expected), std::string::npos)
+      << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 99);
 }
 
 TEST_F(Page, SaysWhenNoRendererHasARatio) {
@@ -177,6 +212,61 @@ TEST_F(Page, FollowsWhatAReaderDoes) {
                      "FLIP, 0 to 1 | true</p>"),
             std::string::npos)
       << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 400);
+}
+
+// Every renderer's flicker rises from 0 to the last frame; in frame 3 cells switch.
+PathEntry pathOf(const std::string& name, size_t frames) {
+  PathEntry path;
+  path.name = name;
+  path.stem = fileStems({name}).front();
+  const auto plans = planRenderers("auto", 640, 360, {});
+  for (const RendererPlan& plan : plans.value()) {
+    path.runs.push_back({plan, {}});
+    for (size_t i = 0; i < frames; ++i) {
+      PathFrame frame;
+      frame.change = {2, 1, 0.1 * static_cast<double>(i)};
+      frame.viewSwitches = i == 3 ? 5 : 0;
+      path.runs.back().frames.push_back(frame);
+    }
+  }
+  return path;
+}
+
+TEST_F(Page, ShowsPathsFrameByFrame) {
+  const std::string script = R"js(
+    const notes = [], all = (selector) => [...document.querySelectorAll(selector)];
+    const note = (value) => notes.push(String(value));
+    note(all("#path-plot polyline").length);                                   // three renderers and the truth
+    note(all("#path-plot .switch").length);
+    const svg = document.querySelector("#path-plot > svg"), box = svg.getBoundingClientRect();
+    const mark = all("#path-plot .switch")[0].getBoundingClientRect();
+    svg.dispatchEvent(new PointerEvent("pointermove", { clientX: mark.x + mark.width / 2, clientY: box.y + 50 }));
+    note(document.querySelector("#path-plot .readout").textContent.replace(/\s+/g, " "));
+    note(all("#path-summary tbody tr").length);
+    note(all("#path-pictures .worst").length);
+    const [path, key] = all("#path-plot select");
+    key.value = "ms";
+    key.dispatchEvent(new Event("change"));
+    note(all("#path-plot polyline").length);                                   // no truth
+    path.value = "1";
+    path.dispatchEvent(new Event("change"));
+    note(all("#path-plot polyline")[0].getAttribute("points").split(" ").length);
+    note(document.querySelector(".of-cameras").hidden);
+    document.getElementById("result").textContent = notes.join(" | ");
+  )js";
+  const std::string dom = chromium_.domOf(write({}, script, {pathOf(kHostile, 6), pathOf("b", 4)}));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_NE(dom.find("<p id=\"result\">4 | 3 | Frame 3the reference's change1.00 full-1spp0.300 · 5 switched "
+                     "full-4spp0.300 · 5 switched auto0.300 · 5 switched | 3 | 3 | 3 | 4 | true</p>"),
+            std::string::npos)
+      << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 400);
+  EXPECT_EQ(dom.find("<img src=\"x\""), std::string::npos);
+}
+
+TEST_F(Page, OfAPathWithoutFramesSaysSo) {
+  const std::string dom = chromium_.domOf(write(entriesOf({"one"}), "", {pathOf("a", 0)}));
+  EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
+  EXPECT_NE(dom.find(">No frame to show</text>"), std::string::npos);
 }
 
 TEST(ReportPage, IsWholeAndHoldsNoMarkupFromOutside) {

@@ -234,6 +234,38 @@ TEST(Summary, MarksTheParetoFrontOfRatioAndFrameTime) {
   EXPECT_EQ(summary["auto"]["medianFrameMs"], 9);
 }
 
+// Error, ms and bytes of two kinds; x1 is beaten by y1 in both, x2 by x1 in bytes alone.
+TEST(Summary, HasFrontsOfTimeAndBytesOfAllAndOfEachKind) {
+  struct Variant {
+    const char *name, *kind;
+    double error, ms;
+    uint64_t bytes;
+  };
+  std::vector<Entry> entries = {entryOf("c", "full-1spp", 10)};
+  entries[0].renderer.kind = "full-1spp";
+  entries[0].frame = frameTimes({100});
+  entries[0].bytesRead = 1000;
+  for (const Variant& variant : {Variant{"x1", "x", 5, 10, 50}, Variant{"x2", "x", 6, 5, 60},
+                                 Variant{"y1", "y", 4, 9, 40}, Variant{"y2", "y", 3, 20, 90}}) {
+    Entry entry = entryOf("c", "auto", variant.error);
+    entry.renderer.name = variant.name;
+    entry.renderer.kind = variant.kind;
+    entry.frame = frameTimes({variant.ms});
+    entry.bytesRead = variant.bytes;
+    entries.push_back(entry);
+  }
+  setRatios(entries);
+  const auto fronts = [&](bool RendererSummary::*mark) {
+    std::string names;
+    for (const RendererSummary& summary : summarise(entries)) names += summary.*mark ? summary.renderer + " " : "";
+    return names;
+  };
+  EXPECT_EQ(fronts(&RendererSummary::onParetoFront), "x2 y1 y2 ");
+  EXPECT_EQ(fronts(&RendererSummary::onKindFront), "full-1spp x1 x2 y1 y2 ");
+  EXPECT_EQ(fronts(&RendererSummary::onBytesFront), "y1 y2 ");
+  EXPECT_EQ(fronts(&RendererSummary::onKindBytesFront), "full-1spp x1 y1 y2 ");
+}
+
 TEST(Summary, WithoutARatioNothingIsOnTheFront) {
   std::vector<Entry> entries = {entryOf("nothing", "full-1spp", 0)};
   setRatios(entries);

@@ -2,8 +2,8 @@
 
 // Boxes around a mark, the nearest first: beside it, above and below, then farther away and aslant. Of points of a front
 // that falls to the right, first on the side where no other mark can be.
-function labelPlaces({ px, py, onParetoFront }, width, height, rings) {
-  const straight = onParetoFront ? [[-1, 0], [0, 1], [1, 0], [0, -1]] : [[1, 0], [-1, 0], [0, -1], [0, 1]];
+function labelPlaces({ px, py, best }, width, height, rings) {
+  const straight = best ? [[-1, 0], [0, 1], [1, 0], [0, -1]] : [[1, 0], [-1, 0], [0, -1], [0, 1]];
   const aslant = [[-0.8, 0.6], [0.8, -0.6], [0.8, 0.6], [-0.8, -0.6]];
   const start = (at, direction, size) => at - size * (direction > 0 ? 0 : direction < 0 ? 1 : 0.5);
   const places = [];

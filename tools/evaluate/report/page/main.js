@@ -6,8 +6,9 @@ function makeHeader() {
   byId("version").textContent = ` ${report.version}`;
   byId("title").textContent = report.pack.name;
   document.title = `${report.pack.name} – farcell report`;
+  const seen = [cameras.length ? `${cameras.length} cameras` : "", paths.length ? `${paths.length} camera paths` : ""];
   byId("lead").textContent = `${whole(report.pack.triangles)} triangles from ${report.pack.source}, ` +
-    `${cameras.length} cameras, ${renderers.length} renderers, pictures of ${pictureSize} ` +
+    `${seen.filter(Boolean).join(", ")}, ${renderers.length} renderers, pictures of ${pictureSize} ` +
     `against ${report.reference.samples} samples a pixel of the full geometry.`;
   const incomplete = byId("incomplete");
   incomplete.hidden = report.complete;
@@ -62,9 +63,17 @@ function picturesChanged() {
 
 readAddress();
 makeHeader();
-makeSummary();
-makeFront();
-makePlots();
-if (cameras.length) makePictures();
-makeEntries();
+for (const section of document.querySelectorAll("main > section"))
+  section.hidden = section.classList.contains("of-paths") ? !paths.length : section.classList.contains("of-cameras") && !cameras.length;
+if (cameras.length) {
+  makeSummary();
+  makeFront();
+  makeEqual();
+  makePlots();
+  makePictures();
+  makeEntries();
+}
+if (paths.length) makePaths();
+for (const link of document.querySelectorAll('nav > a[href^="#"]'))
+  link.hidden = byId(link.hash.slice(1)).parentNode.hidden;
 makeSettings();

@@ -41,6 +41,8 @@ const figures = {
     text: "What the first frame read of the pack, when nothing was in memory." },
   triangles: { name: "Triangles", log: true, long: "Triangles drawn", format: whole, tick: short,
     text: "Drawn in a frame." },
+  meshes: { name: "Meshes", log: true, long: "Cells drawn as simplified meshes", format: whole, tick: short,
+    text: "Inner cells drawn as their simplified meshes." },
   impostors: { name: "Cells", log: true, long: "Cells drawn as impostors", format: whole, tick: short,
     text: "Drawn as impostors." },
   texels: { name: "Texels", log: true, long: "Texels of the views drawn", format: whole, tick: short,
@@ -57,7 +59,7 @@ for (const [key, item] of Object.entries(figures)) {
   item.text = item.text.replace("{ppd}", report.flipPixelsPerDegree).replace("{cap}", report.psnrCap);
 }
 const metricKeys = ["paperError", "ratioToFull1spp", "flip", "psnr", "ssim", "mae", "p99", "holeRate"];
-const costKeys = ["frameMs", "cpuMs", "bytesRead", "triangles", "texels", "impostors", "diameters"];
+const costKeys = ["frameMs", "cpuMs", "bytesRead", "triangles", "meshes", "texels", "impostors", "diameters"];
 const tableKeys = Object.keys(figures);
 
 const axisName = (item) => (item.long || item.name) + (item.unit ? `, ${item.unit}` : "");
@@ -67,18 +69,20 @@ const figureText = (item, entry) => {
 };
 
 const entries = report.entries;
+const paths = report.paths ?? [];
 
 // Order of first occurrence; the stem of a camera's files is its identity.
 const cameras = [...new Map(entries.map((entry) => [entry.stem, { stem: entry.stem, name: entry.camera }])).values()];
 
 // A class has a mark of its own and a family of colours (style.css), in order. The variants of a sweep, as
-// "auto@texel-pixels=0.5@triangle-budget=2M", share the colour of their renderer; their values tell them apart.
+// "auto@texel-pixels=0.5@triangle-budget=2M", share the colour of their kind; their values tell them apart.
 const marks = { geometry: "circle", impostor: "square", mixed: "diamond" };
 const renderers = [];
-for (const entry of entries) {
+for (const entry of [...entries, ...paths.flatMap((path) => path.renderers)]) {
   if (renderers.some((renderer) => renderer.name === entry.renderer)) continue;
   const family = marks[entry.class] ? entry.class : "mixed";
-  const [base, ...swept] = entry.renderer.split("@");
+  const base = entry.kind && entry.renderer.startsWith(entry.kind) ? entry.kind : entry.renderer;
+  const swept = entry.renderer.slice(base.length).split("@").filter(Boolean);
   const others = new Set(renderers.filter((renderer) => renderer.family === family).map((renderer) => renderer.base));
   const place = (others.has(base) ? [...others].indexOf(base) : others.size) % 5;
   renderers.push({ name: entry.renderer, base, family, mark: marks[family], colour: `var(--${family}-${place})`,

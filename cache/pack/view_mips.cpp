@@ -1,4 +1,4 @@
-#include "runtime/draw/view_mips.h"
+#include "cache/pack/view_mips.h"
 
 #include <algorithm>
 #include <bit>

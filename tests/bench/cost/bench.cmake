@@ -1,0 +1,1 @@
+farcell_program(tests/bench/cost bench_cost DEPS farcell_runtime_calibration farcell_tools_evaluate_plan)

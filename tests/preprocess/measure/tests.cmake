@@ -1,0 +1,1 @@
+farcell_tests(preprocess/measure DEPS farcell_preprocess_measure farcell_runtime farcell_tests_support)

@@ -1,0 +1,1 @@
+farcell_tests(tools/evaluate/path DEPS farcell_tools_evaluate_path farcell_preprocess_read farcell_shaders_shared)
