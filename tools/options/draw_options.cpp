@@ -28,6 +28,21 @@ struct Quality {
 const std::map<std::string, Quality> kQualities = {{"default", {kTexelPixels, kMeshPixels, 4}},
                                                    {"high", {0.35, 0.5, 16}}};
 
+void addQuality(CLI::App& app, DrawOptions& options) {
+  // Before the options it sets: values are taken in this order.
+  app.add_option_function<std::string>(
+         "--quality",
+         [&options](const std::string& name) {
+           const Quality& quality = kQualities.at(name);
+           options.texelPixels = quality.texelPixels;
+           options.meshPixels = quality.meshPixels;
+           options.samples = quality.samples;
+         },
+         "high: --texel-pixels 0.35 --mesh-pixels 0.5 --samples 16, unless given")
+      ->check(CLI::IsMember(kQualities))
+      ->default_str("default");
+}
+
 }  // namespace
 
 void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& background) {
@@ -53,18 +68,7 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
   app.add_option("--triangle-budget", options.triangleBudget, "most triangles of a frame in mode auto, e.g. 500k")
       ->type_name("COUNT")
       ->capture_default_str();
-  // Before the options it sets: values are taken in this order.
-  app.add_option_function<std::string>(
-         "--quality",
-         [&options](const std::string& name) {
-           const Quality& quality = kQualities.at(name);
-           options.texelPixels = quality.texelPixels;
-           options.meshPixels = quality.meshPixels;
-           options.samples = quality.samples;
-         },
-         "high: --texel-pixels 0.35 --mesh-pixels 0.5 --samples 16, unless given")
-      ->check(CLI::IsMember(kQualities))
-      ->default_str("default");
+  addQuality(app, options);
   app.add_option("--time-budget-ms", options.timeBudgetMs,
                  "the least error in a frame of so many milliseconds, by what drawing was measured to cost on this "
                  "machine at the first such start; 0: no such budget")
