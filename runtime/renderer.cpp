@@ -12,6 +12,7 @@
 #include "runtime/draw/frame_painter.h"
 #include "runtime/draw/frame_target.h"
 #include "runtime/occlusion/occlusion.h"
+#include "runtime/selection/hand_over.h"
 
 namespace farcell {
 namespace {
@@ -23,9 +24,9 @@ constexpr int kMultisamples = 4;
 constexpr std::array<std::array<double, 2>, 4> kJitterPx = {
     {{-1.5 / 16, 0.5 / 16}, {-0.5 / 16, -1.5 / 16}, {0.5 / 16, 1.5 / 16}, {1.5 / 16, -0.5 / 16}}};
 
-int framesOf(const RenderSettings& settings) {
-  return settings.samplesPerPixel == 16 ? static_cast<int>(kJitterPx.size()) : 1;
-}
+constexpr int kPasses = kJitterPx.size();
+
+int framesOf(const RenderSettings& settings) { return settings.samplesPerPixel == 16 ? kPasses : 1; }
 
 glm::dvec2 jitterOf(int frame, int frames) {
   const auto& jitter = kJitterPx[static_cast<size_t>(frame)];
@@ -93,6 +94,26 @@ std::vector<uint8_t> meanOf(const std::vector<uint16_t>& sums, int count) {
   return result;
 }
 
+// Pictures of one sample, and what is shown instead of the picture, are of one cut.
+bool handsOver(const RenderSettings& settings) {
+  const RenderMode mode = settings.selection.mode;
+  const bool changes = mode != RenderMode::triangles && mode != RenderMode::full;
+  return changes && settings.handOver && settings.samplesPerPixel > 1 && settings.show == Show::picture;
+}
+
+// What a window shows.
+struct Shown {
+  Camera camera;
+  RenderSettings settings;
+  Backdrop backdrop;
+  bool operator==(const Shown&) const = default;
+};
+
+// Of a picture that is drawn in several.
+struct Passes {
+  int first, end, all;
+};
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -104,8 +125,8 @@ struct Renderer::Impl {
   Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx, FrameStats& stats);
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
                     glm::dvec2 jitterPx, FrameStats& stats);
-  Result<FrameStats> drawOver(const Backdrop& backdrop, const Camera& camera, const RenderSettings& settings,
-                              GLuint framebuffer);
+  Result<FrameStats> drawOver(const Shown& shown, Passes passes, GLuint framebuffer);
+  Result<FrameStats> showNext(Shown next, GLuint framebuffer);
 
   const PackFile& pack;
   const Viewpoints viewpoints;
@@ -116,6 +137,9 @@ struct Renderer::Impl {
   std::optional<FramePainter> painter;
   std::optional<BackdropPainter> backdropPainter;  // made with the first picture that has a backdrop
   std::optional<FrameTarget> target;
+  std::optional<Shown> shown;         // in the window
+  int restingFrames = 0;              // that it has been the same
+  std::optional<FrameTarget> gather;  // of passes while it is
 };
 
 Result<> Renderer::Impl::checkSettings(const RenderSettings& settings) const {
@@ -138,14 +162,12 @@ const FrameTarget& Renderer::Impl::targetFor(int width, int height, int samples,
 
 Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut,
                                   bool withCoverage, glm::dvec2 jitterPx, FrameStats& stats) {
-  // Impostors are filtered already: without triangles, more samples would only cost time.
-  const int samples = settings.samplesPerPixel > 1 && cut.triangles > 0 ? kMultisamples : 1;
+  const int samples = settings.samplesPerPixel > 1 ? kMultisamples : 1;
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
-  const FrameCamera frameCamera = makeFrameCamera(
-      pack.directory(), camera,
-      {settings.width, settings.height, jitterPx, settings.samplesPerPixel > 1 ? kMultisamples : 1}, cut);
+  const FrameCamera frameCamera =
+      makeFrameCamera(pack.directory(), camera, {settings.width, settings.height, jitterPx, samples}, cut);
   ShowPlan plan =
       planShow(settings.show, pack.directory(), cut, frameCamera, settings.kind, settings.selection.texelPixels);
   FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, plan, counts));
@@ -161,8 +183,9 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
                                   FrameStats& stats) {
   const SelectionSettings selection = selectionOf(settings);
   const Directory& directory = pack.directory();
+  const auto selector = handsOver(settings) ? selectHandOver : selectCut;
   const auto select = [&](const HiddenCells* hidden) {
-    return selectCut(directory, viewpoints, camera, settings.width, settings.height, selection, hidden);
+    return selector(directory, viewpoints, camera, settings.width, settings.height, selection, hidden);
   };
   Cut cut = select(nullptr);
   const bool known = settings.samplesPerPixel == 1 || multisamples.size() == kMultisamples;
@@ -187,9 +210,9 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
   return pays ? rest : cut;
 }
 
-// Passes of 16 samples are averaged as they come: each is mixed with the mean of those before.
-Result<FrameStats> Renderer::Impl::drawOver(const Backdrop& backdrop, const Camera& camera,
-                                            const RenderSettings& settings, GLuint framebuffer) {
+// Passes are averaged as they come: each is mixed with the mean of those before.
+Result<FrameStats> Renderer::Impl::drawOver(const Shown& picture, Passes passes, GLuint framebuffer) {
+  const auto& [camera, settings, backdrop] = picture;
   FARCELL_TRY(checkSettings(settings));
   if (!backdropPainter) {
     FARCELL_ASSIGN(BackdropPainter made, BackdropPainter::create());
@@ -198,16 +221,38 @@ Result<FrameStats> Renderer::Impl::drawOver(const Backdrop& backdrop, const Came
   const Stopwatch watch;
   FrameStats stats;
   Cut cut;
-  const int frames = framesOf(settings);
-  for (int i = 0; i < frames; ++i) {
-    FARCELL_ASSIGN(cut, cutOf(camera, settings, jitterOf(i, frames), stats));
-    FARCELL_TRY(drawOnce(camera, settings, cut, false, jitterOf(i, frames), stats));
+  for (int i = passes.first; i < passes.end; ++i) {
+    FARCELL_ASSIGN(cut, cutOf(camera, settings, jitterOf(i, passes.all), stats));
+    FARCELL_TRY(drawOnce(camera, settings, cut, false, jitterOf(i, passes.all), stats));
     backdropPainter->paint(*target, backdrop, camera, upVector(pack.directory().model.settings.up), 1.0 / (i + 1),
                            framebuffer);
   }
   stats.wallMs = watch.wallMs();
   stats.cpuMs = watch.cpuMs();
   tell(cut, settings, stats);
+  return stats;
+}
+
+// While the camera rests, the passes of 16 samples take the place of the 4 that a moving one is shown, one a frame.
+Result<FrameStats> Renderer::Impl::showNext(Shown next, GLuint framebuffer) {
+  const RenderSettings& settings = next.settings;
+  FARCELL_TRY(checkSettings(settings));
+  const bool same = shown == next, settled = same && restingFrames == kPasses;
+  restingFrames = same ? std::min(restingFrames + 1, kPasses) : 0;
+  shown = next;
+  FrameStats stats;
+  if (settings.samplesPerPixel != kMultisamples || restingFrames == 0) {
+    FARCELL_ASSIGN(stats, drawOver(next, {0, framesOf(settings), framesOf(settings)}, framebuffer));
+    stats.settled = settings.samplesPerPixel != kMultisamples;
+    return stats;
+  }
+  if (!gather || !gather->matches(settings.width, settings.height, 1, false))
+    gather.emplace(settings.width, settings.height, 1, false);
+  FARCELL_ASSIGN(stats,
+                 drawOver(next, {settled ? 0 : restingFrames - 1, restingFrames, kPasses}, gather->framebuffer()));
+  glBlitNamedFramebuffer(gather->framebuffer(), framebuffer, 0, 0, settings.width, settings.height, 0, 0,
+                         settings.width, settings.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  stats.settled = restingFrames == kPasses;
   return stats;
 }
 
@@ -254,15 +299,16 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   return stats;
 }
 
-Result<FrameStats> Renderer::show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {
-  constexpr GLuint kDefaultFramebuffer = 0;
-  return impl_->drawOver(backdrop, camera, settings, kDefaultFramebuffer);
+Result<FrameStats> Renderer::show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop,
+                                  uint32_t framebuffer) {
+  return impl_->showNext({camera, settings, backdrop}, framebuffer);
 }
 
 Result<FrameImage> Renderer::capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {
   FARCELL_TRY(impl_->checkSettings(settings));
   const FrameTarget canvas(settings.width, settings.height, 1, false);
-  FARCELL_TRY(impl_->drawOver(backdrop, camera, settings, canvas.framebuffer()));
+  const int frames = framesOf(settings);
+  FARCELL_TRY(impl_->drawOver({camera, settings, backdrop}, {0, frames, frames}, canvas.framebuffer()));
   return FrameImage{settings.width, settings.height, canvas.readColour(), {}};
 }
 

@@ -20,13 +20,16 @@ namespace farcell {
 struct RenderSettings {
   int width = 1280;
   int height = 720;
-  int samplesPerPixel = 4;  // of triangles: 1, 4 (multisampling) or 16 (four jittered passes of 4)
+  int samplesPerPixel = 4;  // 1, 4 (multisampling) or 16 (four jittered passes of 4)
   ImpostorKind kind = ImpostorKind::depthCorrected;
   SelectionSettings selection;  // its costs are those of `kind` and samples here
   CostModel costs = kDefaultCosts;
   bool occlusion = false;        // cells that nearer triangles hide are not drawn; mode `full` draws them all the same
   bool occlusionMustPay = true;  // only where that is expected to save more time than the search takes
   Show show = Show::picture;
+  bool handOver =
+      true;  // of pictures of 4 samples or more: cells change how they are drawn without a pop (hand_over.h)
+  bool operator==(const RenderSettings&) const = default;
 };
 
 struct FrameStats {
@@ -51,6 +54,7 @@ struct FrameStats {
   double occlusionMs = 0;
   uint64_t occlusionBytes = 0;      // of bytesRead, what was read to find it
   std::vector<LegendEntry> legend;  // of RenderSettings::show; empty for the picture
+  bool settled = true;              // of `show`: the same once more would show the same picture
 };
 
 // Draws one pack. All calls on the thread of the context.
@@ -67,9 +71,11 @@ class Renderer {
   // invalidArgument: a size or number of samples that cannot be; else what reading pages failed with.
   Result<FrameStats> draw(const Camera& camera, const RenderSettings& settings, FrameImage* image);
 
-  // Draws over the backdrop into the default framebuffer of the context's window, whose size is that of `settings`, and
-  // does not wait for the GPU. Fails as `draw` does.
-  Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
+  // Draws over the backdrop into a framebuffer (of this OpenGL name; 0: the window's), whose size is that of
+  // `settings`, and does not wait for the GPU. Where 4 samples are asked for, frames of a camera that rests gather 16,
+  // a pass a frame, until the picture has `settled`. Fails as `draw` does.
+  Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop,
+                          uint32_t framebuffer = 0);
   // The picture that `show` would show, alpha 255, read back.
   Result<FrameImage> capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop);
 

@@ -16,6 +16,7 @@ struct Camera {
   glm::dvec3 target{0, 0, -1};
   glm::dvec3 up{0, 1, 0};
   double fovYRad = 0.7;  // of the whole height
+  bool operator==(const Camera&) const = default;
 };
 
 // Orthonormal axes of the view: x right, y up, z backwards (the eye looks along -z).

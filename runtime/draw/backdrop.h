@@ -16,6 +16,7 @@ struct Backdrop {
   std::array<uint8_t, 3> zenith;
   std::array<uint8_t, 3> horizon;
   std::array<uint8_t, 3> nadir;
+  bool operator==(const Backdrop&) const = default;
 };
 inline constexpr Backdrop kSky = {{104, 152, 208}, {224, 232, 238}, {150, 158, 164}};
 

@@ -51,16 +51,15 @@ FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, co
   const double nearest = nearestContentSteps(directory, cut, frame.eyeSteps) * rootSidesPerStep;
   const double near = std::max(kMinNear, 0.5 * cosCorner * nearest);
   const int imageSize = model.settings.imageSize;
-  frame.uniforms = {
-      row(clipX),
-      row(clipY),
-      row(clipW),
-      glm::ivec4(whole, 0),
-      glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
-      glm::vec4(sunDirection(model.settings.up), 0.0f),
-      glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize),
-                static_cast<float>(view.impostorRays), static_cast<float>(std::log2(view.impostorRays) / 2)),
-      glm::vec4(0)};
+  frame.uniforms = {row(clipX),
+                    row(clipY),
+                    row(clipW),
+                    glm::ivec4(whole, 0),
+                    glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
+                    glm::vec4(sunDirection(model.settings.up), 0.0f),
+                    glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize), 0.0f,
+                              static_cast<float>(std::log2(view.samples) / 2)),
+                    glm::vec4(0)};
   return frame;
 }
 

@@ -21,7 +21,7 @@ struct FrameView {
   int width = 0;
   int height = 0;
   glm::dvec2 jitterPx{0};  // the picture is moved by this many pixels (x right, y up)
-  int impostorRays = 1;    // per pixel, through impostors of kinds A and B: 1 or 4
+  int samples = 1;         // of a pixel
 };
 
 // The near plane is half way to the nearest content box of the cut, and not nearer than 2^-20 of the root's side:

@@ -81,6 +81,9 @@ Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
   Programs programs;
   FARCELL_ASSIGN(programs.triangles,
                  loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
+  triangleDefines.push_back("SHARES");
+  FARCELL_ASSIGN(programs.sharedTriangles,
+                 loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
   FARCELL_ASSIGN(programs.flat,
                  loadProgram({"shaders/gl/impostor_flat.vert", "shaders/gl/impostor_flat.frag", defines}));
   std::vector<std::string> marchDefines = defines;
@@ -123,35 +126,49 @@ Result<> FramePainter::paintTriangles(const Frame& frame) {
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
-  glUseProgram(frame.programs.triangles.name());
-  const Directory& directory = pack_.directory();
-  std::vector<uint32_t> portion;
-  std::vector<GeometryStore::Tint> tints;
+  Portions portions;
   geometry_.beginPortion();
   for (size_t i = 0; i < frame.cut.entries.size(); ++i) {
     const CutEntry& entry = frame.cut.entries[i];
-    const CellRecord& cell = directory.cells[entry.cell];
+    const CellRecord& cell = pack_.directory().cells[entry.cell];
     if (entry.representation == Representation::impostor) continue;
+    GeometryStore::Tint tint{};
+    if (!frame.plan.tints.empty()) tint = frame.plan.tints[i];
+    tint[3] = entry.shares;
     for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
       const uint32_t index = cell.firstGeometryPage + part;
-      if (!geometry_.keep(index)) {
-        FARCELL_ASSIGN(const GeometryPage page, pack_.readGeometry(index));
-        frame.counts.bytesRead += directory.pages[index].storedBytes;
-        const GpuMesh mesh = makeGpuMesh(page, cellBox(directory.model.grid, cell.key).min);
-        if (!geometry_.add(index, mesh)) {
-          geometry_.draw(portion, tints);
-          portion.clear();
-          tints.clear();
-          geometry_.beginPortion();
-          FARCELL_CHECK(geometry_.add(index, mesh));
-        }
-      }
-      portion.push_back(index);
-      if (!frame.plan.tints.empty()) tints.push_back(frame.plan.tints[i]);
+      FARCELL_TRY(addPage(index, frame, portions));
+      const bool shared = entry.shares != kAllShares;
+      Portion& portion = shared ? portions.shared : portions.whole;
+      portion.pages.push_back(index);
+      if (shared || !frame.plan.tints.empty()) portion.tints.push_back(tint);
     }
   }
-  geometry_.draw(portion, tints);
+  drawPortions(frame, portions);
   return {};
+}
+
+// Makes it resident; where there is no room, what there is so far is drawn and leaves.
+Result<> FramePainter::addPage(uint32_t index, const Frame& frame, Portions& portions) {
+  if (geometry_.keep(index)) return {};
+  const Directory& directory = pack_.directory();
+  FARCELL_ASSIGN(const GeometryPage page, pack_.readGeometry(index));
+  frame.counts.bytesRead += directory.pages[index].storedBytes;
+  const CellRecord& cell = directory.cells[directory.pages[index].cell];
+  const GpuMesh mesh = makeGpuMesh(page, cellBox(directory.model.grid, cell.key).min);
+  if (geometry_.add(index, mesh)) return {};
+  drawPortions(frame, portions);
+  geometry_.beginPortion();
+  FARCELL_CHECK(geometry_.add(index, mesh));
+  return {};
+}
+
+void FramePainter::drawPortions(const Frame& frame, Portions& portions) {
+  glUseProgram(frame.programs.triangles.name());
+  geometry_.draw(portions.whole.pages, portions.whole.tints);
+  glUseProgram(frame.programs.sharedTriangles.name());
+  geometry_.draw(portions.shared.pages, portions.shared.tints);
+  portions = {};
 }
 
 Result<> FramePainter::paintImpostors(Frame& frame) {
@@ -171,7 +188,8 @@ Result<> FramePainter::paintImpostors(Frame& frame) {
     }
     if (std::all_of(views->begin(), views->end(), [](const DirectedView& view) { return view.view.layer < 0; }))
       continue;
-    portion.push_back(makeImpostorInstance(directory.model, directory.cells[entry.cell], *views, frame.camera));
+    portion.push_back(
+        makeImpostorInstance(directory.model, directory.cells[entry.cell], *views, entry.shares, frame.camera));
     if (!frame.plan.tints.empty()) portion.back().tint = unitColour(frame.plan.tints[i]);
     if (frame.plan.show == Show::billboards)
       addBillboard(frame.lines, portion.back(), lineColour(entry.representation, frame.kind));

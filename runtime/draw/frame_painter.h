@@ -38,6 +38,7 @@ class FramePainter {
  private:
   struct Programs {
     GlProgram triangles;
+    GlProgram sharedTriangles;  // for some of the samples
     GlProgram flat;
     GlProgram depthCorrected;
     GlProgram blended;
@@ -55,7 +56,17 @@ class FramePainter {
   FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes);
   Result<> prepare(Look look);
   Result<Programs> loadPrograms(Look look) const;
+  // Pages to be drawn together.
+  struct Portion {
+    std::vector<uint32_t> pages;
+    std::vector<GeometryStore::Tint> tints;
+  };
+  struct Portions {
+    Portion whole, shared;  // for all samples, for some
+  };
   Result<> paintTriangles(const Frame& frame);
+  Result<> addPage(uint32_t index, const Frame& frame, Portions& portions);
+  void drawPortions(const Frame& frame, Portions& portions);
   Result<std::optional<ImpostorViews>> residentViews(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
   Result<> paintImpostors(Frame& frame);
   void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame);

@@ -27,7 +27,8 @@ class GeometryStore {
   // Uploads and keeps. False, and nothing changed that matters, when the portion's pages leave no room.
   bool add(uint32_t page, const GpuMesh& mesh);
   // Draws resident pages kept in this portion, with the bound program: one multi-draw for each buffer they lie in.
-  // `tints`: of each page, at location 3; empty: the program asks for none.
+  // `tints`: of each page, at location 3: a colour and the shares of the cut (hand_over.h) that it is for; empty: the
+  // program asks for none.
   using Tint = std::array<uint8_t, 4>;
   void draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints);
 

@@ -12,7 +12,7 @@ glm::vec4 plane(glm::dvec3 axis, double offset) { return glm::vec4(glm::vec3(axi
 }  // namespace
 
 shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const ImpostorViews& views,
-                                              const FrameCamera& camera) {
+                                              uint8_t shares, const FrameCamera& camera) {
   const double texel = texelSize(model.settings.imageSize);
   const GridBox cube = cellBox(model.grid, cell.key);
   const glm::dvec3 centreSteps = glm::dvec3(cube.min + cube.max) * 0.5;
@@ -23,7 +23,7 @@ shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellReco
   shared::ImpostorInstance instance;
   instance.centre = plane(centreSteps - camera.eyeSteps, halfSteps);
   instance.boxMin = plane((glm::dvec3(cell.content.min) - centreSteps) / halfSteps, texel);
-  instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, 0);
+  instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, shares);
   instance.eye = plane(eye, std::log2(camera.pixelAngle / (texel * halfRootSides)) + shared::kLodBias);
   instance.tint = glm::vec4(0);
   for (size_t i = 0; i < views.size(); ++i) {

@@ -18,7 +18,8 @@ struct DirectedView {
 };
 using ImpostorViews = std::array<DirectedView, shared::kImpostorViews>;
 
+// shares: CutEntry::shares.
 shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const ImpostorViews& views,
-                                              const FrameCamera& camera);
+                                              uint8_t shares, const FrameCamera& camera);
 
 }  // namespace farcell

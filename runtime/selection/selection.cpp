@@ -22,7 +22,7 @@ struct View {
   double pixelAngle = 0;              // edge of a pixel at distance 1 from the eye
 };
 
-View makeView(const Grid& grid, const Camera& camera, int width, int height) {
+View makeView(const Grid& grid, const Camera& camera, int width, int height, double detail) {
   View view;
   for (int axis = 0; axis < 3; ++axis)
     view.eye[axis] = std::clamp((camera.position[axis] - grid.origin[axis]) / grid.step(), -kMaxEyeSteps, kMaxEyeSteps);
@@ -31,7 +31,7 @@ View makeView(const Grid& grid, const Camera& camera, int width, int height) {
   const double tanX = tanY * width / height;
   view.sides = {glm::normalize(axes.right - axes.back * tanX), glm::normalize(-axes.right - axes.back * tanX),
                 glm::normalize(axes.up - axes.back * tanY), glm::normalize(-axes.up - axes.back * tanY)};
-  view.pixelAngle = 2 * tanY / height;
+  view.pixelAngle = 2 * tanY / (height * detail);
   return view;
 }
 
@@ -64,7 +64,7 @@ class Selector {
         settings_(settings),
         hidden_(hidden),
         imageTexel_(texelSize(directory.model.settings.imageSize)),
-        picturePixels_(static_cast<double>(width) * height) {}
+        picturePixels_(static_cast<double>(width) * height * settings.detail * settings.detail) {}
 
   Cut run() {
     if (!directory_.cells.empty()) visit(0);
@@ -272,13 +272,19 @@ class Selector {
     const GridBox& content = directory_.cells[index].content;
     glm::dvec3 direction = view_.eye - glm::dvec3(content.min + content.max) * 0.5;
     if (direction == glm::dvec3(0)) direction = back_;
-    const auto [nearest, second] = viewpoints_.nearestTwo(direction);
+    const auto [nearest, second] = nearestTwo(glm::normalize(direction));
     const Viewpoints::Triple blend = viewpoints_.hasTriangles()
                                          ? viewpoints_.nearestThree(direction)
                                          : Viewpoints::Triple{{nearest, second, second}, {1, 0, 0}};
     cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(nearest),
                             static_cast<uint32_t>(second), blend, texelPixels(directory_.cells[index])});
     cut_.work += workOf(directory_.cells[index], true);
+  }
+  // The nearest to the direction as it leans; then the nearest other one, as it is.
+  std::array<int, 2> nearestTwo(glm::dvec3 direction) const {
+    const auto [nearest, second] = viewpoints_.nearestTwo(direction);
+    const int leaning = viewpoints_.nearest(direction + settings_.lean);
+    return {leaning, leaning == nearest ? second : nearest};
   }
   void addMesh(uint32_t index) {
     const CellRecord& cell = directory_.cells[index];
@@ -306,7 +312,7 @@ class Selector {
 
 Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
               const SelectionSettings& settings, const HiddenCells* hidden) {
-  const View view = makeView(directory.model.grid, camera, width, height);
+  const View view = makeView(directory.model.grid, camera, width, height, settings.detail);
   return Selector(directory, viewpoints, camera, view, width, height, settings, hidden).run();
 }
 

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "cache/pack/directory.h"
@@ -55,7 +56,15 @@ struct SelectionSettings {
   uint64_t texelBudget = 0;                     // of views, roughly
   uint64_t byteBudget = 0;                      // stored, of the pages drawn from
   DrawCosts costs = kDefaultCosts.of(1, 4);     // of kind A
+  // How the cut of a share differs from the others' (hand_over.h).
+  double detail = 1;         // a pixel counts as so many along its edge
+  glm::dvec3 lean{0, 0, 0};  // added to the unit direction from which the nearest view is chosen
+  bool operator==(const SelectionSettings&) const = default;
 };
+
+// A cut is for all of a pixel's samples or for some: its shares.
+inline constexpr int kShares = 4;
+inline constexpr uint8_t kAllShares = (1 << kShares) - 1;
 
 struct CutEntry {
   uint32_t cell = 0;
@@ -67,6 +76,7 @@ struct CutEntry {
   Viewpoints::Triple blend{};  // kind B: the views of the triangle around the same direction
   // Of how it is drawn, pixels, at the nearest point of the content; infinite inside its box.
   double errorPixels = 0;
+  uint8_t shares = kAllShares;  // a bit for each share that the entry is part of
 };
 
 // Entries lie front to back: of two, the later one can never hide the earlier (octree order seen from the eye).

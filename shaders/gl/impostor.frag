@@ -5,8 +5,9 @@ layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(binding = 0) uniform sampler2DArray colours;
 layout(binding = 1) uniform sampler2DArray depths;
 
-in vec3 boxPoint;
-in vec3 viewPoint[VIEWS];
+sample in vec3 boxPoint;
+sample in vec3 viewPoint[VIEWS];
+flat in int shares;
 flat in vec4 eye;
 flat in vec3 boxMin, boxMax;
 flat in vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
@@ -45,21 +46,11 @@ vec4 seenThrough(vec3 local, vec3 points[VIEWS]) {
 #endif
 }
 
+// Once a sample: where the object's outline differs from the view's, no texel knows how much of a pixel it covers, and
+// what covers a part of it covers the same part of all behind.
 void main() {
-  vec3 localX = dFdx(boxPoint), localY = dFdy(boxPoint);
-  vec3 pointX[VIEWS], pointY[VIEWS];
-  for (int i = 0; i < VIEWS; ++i) {
-    pointX[i] = dFdx(viewPoint[i]);
-    pointY[i] = dFdy(viewPoint[i]);
-  }
-  colour = vec4(0.0);
-  int rays = int(frame.image.z);
-  for (int ray = 0; ray < rays; ++ray) {
-    vec2 offset = rays == 1 ? vec2(0.0) : kRayOffsets[ray];
-    vec3 points[VIEWS];
-    for (int i = 0; i < VIEWS; ++i) points[i] = viewPoint[i] + offset.x * pointX[i] + offset.y * pointY[i];
-    colour += seenThrough(boxPoint + offset.x * localX + offset.y * localY, points);
-  }
-  colour *= 1.0 / frame.image.z;
+  if ((shares >> gl_SampleID & 1) == 0) discard;
+  colour = seenThrough(boxPoint, viewPoint);
+  if (colour.a == 0.0) discard;
   impostorCoverage = colour.aaaa;
 }

@@ -5,8 +5,9 @@
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instances[]; };
 
-out vec3 boxPoint;              // local
-out vec3 viewPoint[VIEWS];      // in the texture spaces of the views
+sample out vec3 boxPoint;          // local
+sample out vec3 viewPoint[VIEWS];  // in the texture spaces of the views
+flat out int shares;
 flat out vec4 eye;              // local; w: level of detail at clip w = 1
 flat out vec3 boxMin, boxMax;   // padded, local
 flat out vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
@@ -21,12 +22,14 @@ vec3 texturePoint(ImpostorView view, vec3 local) {
 
 void main() {
   ImpostorInstance instance = instances[gl_InstanceID];
+  // Not towards the eye: there the neighbour's own padding overlaps the box already.
   vec3 pad = vec3(instance.boxMin.w * kBoxPadTexels);
-  boxMin = instance.boxMin.xyz - pad;
-  boxMax = instance.boxMax.xyz + pad;
+  boxMin = instance.boxMin.xyz - pad * vec3(greaterThanEqual(instance.eye.xyz, instance.boxMin.xyz));
+  boxMax = instance.boxMax.xyz + pad * vec3(lessThanEqual(instance.eye.xyz, instance.boxMax.xyz));
   bvec3 high = bvec3((gl_VertexID & 1) != 0, (gl_VertexID & 2) != 0, (gl_VertexID & 4) != 0);
   boxPoint = mix(boxMin, boxMax, high);
   eye = instance.eye;
+  shares = int(instance.boxMax.w);
 #ifdef SHOW
   shownInstance = gl_InstanceID;
 #endif

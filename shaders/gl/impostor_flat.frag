@@ -12,6 +12,7 @@ in vec3 along;
 
 in vec2 texel;
 flat in vec2 layerAndLod;
+flat in int shares;
 
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
@@ -23,4 +24,5 @@ void main() {
   colour = shownInstead(colour, shownInstance, 0, texel, 1.0 / gl_FragCoord.w, along);
 #endif
   impostorCoverage = colour.aaaa;
+  gl_SampleMask[0] = shares;
 }

@@ -8,6 +8,7 @@ layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instanc
 
 out vec2 texel;
 flat out vec2 layerAndLod;
+flat out int shares;
 #ifdef SHOW
 flat out int shownInstance;
 out vec3 along;  // from the eye
@@ -28,6 +29,7 @@ void main() {
   gl_Position = vec4(dot(frame.clipX.xyz, relative), dot(frame.clipY.xyz, relative), frame.eyeFraction.w,
                      dot(frame.clipW.xyz, relative));
   layerAndLod = vec2(view.boxMin.w, instance.eye.w);
+  shares = int(instance.boxMax.w);
 #ifdef SHOW
   shownInstance = gl_InstanceID;
   along = relative;

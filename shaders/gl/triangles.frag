@@ -14,6 +14,9 @@ flat in vec3 faceNormal;
 #ifdef SHOW_TINT
 flat in vec3 tint;
 #endif
+#ifdef SHARES
+flat in int shares;
+#endif
 #ifdef SHOW_NORMALS
 in vec3 along;
 #endif
@@ -37,4 +40,7 @@ void main() {
   colour = vec4(normalColour(unit, along), 1.0);
 #endif
   impostorCoverage = vec4(0.0, 0.0, 0.0, 1.0);
+#ifdef SHARES
+  gl_SampleMask[0] = shares;
+#endif
 }

@@ -1,6 +1,7 @@
 // Full triangles. Vertices are integers on the model's grid: the difference to the eye is exact, and the same for the
 // cells on both sides of a shared corner, so that no cracks open.
 //
+// SHARES: for some of the samples only (hand_over.h).
 // SHOW_TINT, SHOW_DEPTH, SHOW_NORMALS: what shaders/shared/show.h says, instead of the picture.
 #include "shaders/shared/draw.h"
 #include "shaders/shared/shading.h"
@@ -10,9 +11,10 @@ layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(location = 0) in ivec3 position;  // grid steps
 layout(location = 1) in vec4 colour;
 layout(location = 2) in vec2 normal;     // octahedral; flat faces: of the provoking vertex's triangle
-#ifdef SHOW_TINT
-layout(location = 3) in vec3 cellTint;   // one a draw
+#if defined(SHOW_TINT) || defined(SHARES)
+layout(location = 3) in vec4 perDraw;    // rgb: a colour; a: shares of a cut, a bit each
 flat out vec3 tint;
+flat out int shares;
 #endif
 #ifdef SHOW_NORMALS
 out vec3 along;  // from the eye
@@ -38,8 +40,9 @@ void main() {
   light = lightFactor(unit, frame.sun.xyz);
   faceNormal = unit;
 #endif
-#ifdef SHOW_TINT
-  tint = cellTint;
+#if defined(SHOW_TINT) || defined(SHARES)
+  tint = perDraw.rgb;
+  shares = int(perDraw.a * 255.0 + 0.5);
 #endif
 #ifdef SHOW_NORMALS
   along = relative;

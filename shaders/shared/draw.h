@@ -16,7 +16,7 @@ struct FrameUniforms {
   ivec4 eyeSteps;    // xyz: integer part of the eye's position on the grid
   vec4 eyeFraction;  // xyz: the rest of it, in steps; w: near distance, root sides
   vec4 sun;          // xyz: unit, world axes
-  vec4 image;        // x: edge of a view in texels; y: 1 / x; z: rays per pixel; w: log2(z) / 2
+  vec4 image;        // x: edge of a view in texels; y: 1 / x; w: what more samples add to the level of detail
   vec4 depthScale;   // for depthGrey (show.h), of depths in root sides
 };
 
@@ -36,13 +36,14 @@ const int kImpostorViews = 3;
 struct ImpostorInstance {
   vec4 centre;  // xyz: cell centre - eye, grid steps; w: half side, grid steps
   vec4 boxMin;  // xyz: content box, local; w: edge of a texel, half sides
-  vec4 boxMax;
-  vec4 eye;   // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
+  vec4 boxMax;  // w: its shares, a bit for each sample that shows it (hand_over.h)
+  vec4 eye;     // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
   vec4 tint;  // xyz: colour for what stands for cells instead of showing them (show.h)
   ImpostorView views[kImpostorViews];
 };
 
-// A cell's content box is drawn larger by this share of a texel, so that neighbours' filtered edges meet.
+// A cell's content box is drawn larger by this share of a texel on the sides away from the eye, so that neighbours'
+// filtered edges meet.
 const float kBoxPadTexels = 0.75f;
 
 const float kLodBias = -0.75f;  // sharper than the pixel's footprint asks: measured best

@@ -31,6 +31,7 @@ FARCELL_CONST int kBisections = 5;
 FARCELL_CONST float kEnteredBehindTexels = 6.0f;  // how far below the surface a ray may enter and still be a hit
 FARCELL_CONST float kSurfaceTexels = 3.0f;        // a crossing that ends farther below the depth image is a jump of it
 FARCELL_CONST float kEmptyAlpha = 0.004f;
+FARCELL_CONST float kBlurredCoverage = 0.15f;
 FARCELL_CONST int kAttempts = 6;              // hits looked at when the nearest ones are empty or jumps
 FARCELL_CONST float kAgreeTexels = 3.0f;      // a view agrees where its depth is that near; at twice that, not at all
 FARCELL_CONST float kLeastWeight = 0.02f;     // of the view a point was found in
@@ -61,6 +62,13 @@ FARCELL_SHARED vec2 slab(vec3 point, vec3 direction, vec3 low, vec3 high) {
   vec3 first = min(a, b);
   vec3 last = max(a, b);
   return vec2(max(max(first.x, first.y), first.z), min(min(last.x, last.y), last.z));
+}
+
+// Texels and their filter widen an edge on both sides: coverage near 0 and near 1 is taken as that, so that its mean
+// across the edge stays.
+FARCELL_SHARED vec4 sharpened(vec4 seen) {
+  float coverage = clamp((seen.w - kBlurredCoverage) / (1.0f - 2.0f * kBlurredCoverage), 0.0f, 1.0f);
+  return seen * (coverage / max(seen.w, kEmptyAlpha));
 }
 
 // Looks through one view. point: boxPoint in its texture space; from: its eye, w: edge of a texel in depth values;
@@ -123,7 +131,7 @@ FARCELL_SHARED int look(vec3 point, vec4 from, vec4 low, vec3 high, vec2 inBox, 
     bool onSurface = depthBelow < kSurfaceTexels * texel;
     if (onSurface || result == kNothing) {
       vec2 hit = vec2(point) + s * vec2(along);
-      vec4 seen = colourAt(hit, low.w, s);
+      vec4 seen = sharpened(colourAt(hit, low.w, s));
       if (seen.w > kEmptyAlpha) {
         found = seen;
         place = vec3(hit, s);
@@ -176,6 +184,8 @@ FARCELL_SHARED Found find(vec3 local, vec3 points[VIEWS]) {
     float ignored = kNowhere;
     if (look(points[i], viewEye[i], viewMin[i], vec3(viewMax[i]), inBox, other.seen, other.place, ignored) == kSurface)
       found = other;
+    else if (VIEWS == 2 && ignored == kNowhere)
+      found.seen = found.jump = vec4(0.0f);  // all of the ray lies before what this view saw
   }
   return found;
 }

@@ -1,6 +1,7 @@
 // Frames laid over what is behind the model, as a window shows them.
 #include <gtest/gtest.h>
 
+#include "runtime/draw/frame_target.h"
 #include "tests/runtime/renderer_fixture.h"
 
 namespace farcell {
@@ -53,6 +54,31 @@ TEST(Backdrop, aSkyIsUprightByTheModelWhereverTheCameraLooks) {
   EXPECT_GT(at(*level, 32, 2)[2], 50);  // row 0 is the top: sky there, not ground
   EXPECT_EQ(at(*level, 32, 2)[0], 0);
   EXPECT_GT(at(*level, 32, 61)[0], 50);
+}
+
+TEST(Backdrop, aCameraThatRestsIsShownThePictureOf16SamplesInFiveFrames) {
+  DrawnPack pack = sphere();
+  const RenderSettings settings = sized(120, 90, RenderMode::full, 4), finer = sized(120, 90, RenderMode::full, 16);
+  const FrameTarget window(120, 90, 1, false);
+  const auto shownFrom = [&](const Camera& camera) {
+    const auto stats = pack.renderer->show(camera, settings, kStripes, window.framebuffer());
+    if (!stats) throw std::runtime_error(stats.error().message);
+    return stats->settled;
+  };
+  for (const double height : {4.0, 5.0}) {  // a camera that moves on begins anew
+    const Camera camera = lookAt({20, 3, height}, {0, 0, 0});
+    const auto first = pack.renderer->capture(camera, settings, kStripes);
+    const auto last = pack.renderer->capture(camera, finer, kStripes);
+    ASSERT_TRUE(first && last);
+    ASSERT_NE(first->rgba, last->rgba);
+    EXPECT_FALSE(shownFrom(camera));
+    EXPECT_EQ(window.readColour(), first->rgba);
+    for (int frame = 1; frame < 4; ++frame) EXPECT_FALSE(shownFrom(camera));
+    for (int frame = 4; frame < 6; ++frame) {
+      EXPECT_TRUE(shownFrom(camera));
+      EXPECT_EQ(window.readColour(), last->rgba);
+    }
+  }
 }
 
 TEST(Backdrop, aPictureThatCannotBeIsRefused) {

@@ -20,6 +20,29 @@ const std::map<std::string, Show> kShows = {
     {"picture", Show::picture}, {"cells", Show::cells}, {"billboards", Show::billboards}, {"levels", Show::levels},
     {"kinds", Show::kinds},     {"error", Show::error}, {"depth", Show::depth},           {"normals", Show::normals}};
 
+// Settings that go together. An option of its own has the last word.
+struct Quality {
+  double texelPixels, meshPixels;
+  int samples;
+};
+const std::map<std::string, Quality> kQualities = {{"default", {kTexelPixels, kMeshPixels, 4}},
+                                                   {"high", {0.35, 0.5, 16}}};
+
+void addQuality(CLI::App& app, DrawOptions& options) {
+  // Before the options it sets: values are taken in this order.
+  app.add_option_function<std::string>(
+         "--quality",
+         [&options](const std::string& name) {
+           const Quality& quality = kQualities.at(name);
+           options.texelPixels = quality.texelPixels;
+           options.meshPixels = quality.meshPixels;
+           options.samples = quality.samples;
+         },
+         "high: --texel-pixels 0.35 --mesh-pixels 0.5 --samples 16, unless given")
+      ->check(CLI::IsMember(kQualities))
+      ->default_str("default");
+}
+
 }  // namespace
 
 void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& background) {
@@ -45,6 +68,7 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
   app.add_option("--triangle-budget", options.triangleBudget, "most triangles of a frame in mode auto, e.g. 500k")
       ->type_name("COUNT")
       ->capture_default_str();
+  addQuality(app, options);
   app.add_option("--time-budget-ms", options.timeBudgetMs,
                  "the least error in a frame of so many milliseconds, by what drawing was measured to cost on this "
                  "machine at the first such start; 0: no such budget")
@@ -63,7 +87,8 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
                  "a simplified mesh may be this far from the full surface on screen, pixels; 0: none is drawn")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  app.add_option("--samples", options.samples, "samples per pixel, of triangles")
+  app.add_option("--samples", options.samples,
+                 "samples per pixel; with 4 or 16 cells change how they are drawn without a pop")
       ->check(CLI::IsMember({"1", "4", "16"}))
       ->capture_default_str();
   app.add_option("--background", options.background, "colour behind the model, 0 to 255 each; default: " + background)

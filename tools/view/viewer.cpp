@@ -211,6 +211,7 @@ void Viewer::drawNow() {
   stale_ = false;
   const auto frameMs = drawFrame(scene_.controls->camera(), lastStats_);
   if (!frameMs) return report(frameMs.error().message);
+  stale_ = !lastStats_.settled;
   sumMs_ += *frameMs;
   ++frameCount_;
   updateTitle(false);

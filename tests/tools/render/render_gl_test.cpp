@@ -63,6 +63,19 @@ TEST_F(RenderProgram, repeatedFramesReadThePackOnce) {
   EXPECT_GT(figures["frames"][2]["triangles"].get<uint64_t>(), 511u);
 }
 
+TEST_F(RenderProgram, aQualityIsItsOptionsTogetherAndAnOptionHasTheLastWord) {
+  const auto picture = [&](const std::string& options) {
+    EXPECT_EQ(run("a.far --size 64x48 -o q.png " + options), 0) << text("err");
+    return text("q.png");
+  };
+  const std::string high = picture("--quality high");
+  EXPECT_EQ(high, picture("--texel-pixels 0.35 --mesh-pixels 0.5 --samples 16"));
+  EXPECT_NE(high, picture(""));
+  EXPECT_EQ(picture("--quality default"), picture(""));
+  EXPECT_EQ(picture("--samples 4 --quality high"), picture("--texel-pixels 0.35 --mesh-pixels 0.5"));
+  EXPECT_EQ(run("a.far --quality best -o q.png"), 2);
+}
+
 TEST_F(RenderProgram, namedCamerasAreFoundOrRefused) {
   ASSERT_TRUE(
       writeTextFile(directory_ / "c.json",
