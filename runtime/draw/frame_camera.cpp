@@ -11,18 +11,6 @@ constexpr double kMaxEyeSteps = 1e30;            // squares stay finite in float
 constexpr double kMaxIntegerSteps = 1073741824;  // 2^30: differences to grid points fit 32 bits
 constexpr double kMinNear = 1.0 / (1 << 20);     // root sides
 
-double nearestContentSteps(const Directory& directory, const Cut& cut, glm::dvec3 eye) {
-  double nearest = kMaxEyeSteps;
-  for (const CutEntry& entry : cut.entries) {
-    const GridBox& box = directory.cells[entry.cell].content;
-    glm::dvec3 point;
-    for (int axis = 0; axis < 3; ++axis)
-      point[axis] = std::clamp(eye[axis], static_cast<double>(box.min[axis]), static_cast<double>(box.max[axis]));
-    nearest = std::min(nearest, glm::length(eye - point));
-  }
-  return nearest;
-}
-
 glm::vec4 row(glm::dvec3 v) { return glm::vec4(glm::vec3(v), 0.0f); }
 
 }  // namespace
@@ -48,7 +36,7 @@ FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, co
   const glm::dvec3 clipY = axes.up * (rootSidesPerStep / tanY) + clipW * (2 * view.jitterPx.y / view.height);
   // The nearest content may lie in a corner of the picture, where the depth is less than the distance.
   const double cosCorner = 1 / std::sqrt(1 + tanX * tanX + tanY * tanY);
-  const double nearest = nearestContentSteps(directory, cut, frame.eyeSteps) * rootSidesPerStep;
+  const double nearest = std::min(cut.nearestSteps, kMaxEyeSteps) * rootSidesPerStep;
   const double near = std::max(kMinNear, 0.5 * cosCorner * nearest);
   const int imageSize = model.settings.imageSize;
   frame.uniforms = {row(clipX),

@@ -15,6 +15,7 @@ constexpr uint64_t kMostTriangles = 32768;
 constexpr double kLeastAreaPx = 4;  // of a triangle, seen from the front
 constexpr double kMarginPx = 2;
 constexpr double kImpostorTexels = 1;                // that a filter reaches beyond the content
+constexpr double kMeshErrors = 1.25;                 // that a simplified mesh may reach beyond it; measured at samples
 constexpr double kDepthMargin = 1e-4;                // of a depth
 constexpr double kNearRootSides = 1.01 / (1 << 20);  // the renderer's least near distance
 
@@ -59,7 +60,8 @@ Result<Occlusion> Occlusion::of(const Directory& directory, const Camera& camera
   Occlusion occlusion(directory, camera, view);
   for (const CutEntry& entry : cut.entries) {
     if (occlusion.leaves_.size() >= kMostLeaves || occlusion.triangles_ >= kMostTriangles) break;
-    if (entry.representation != Representation::triangles || occlusion.hides(entry.cell)) continue;
+    const bool whole = entry.representation == Representation::triangles && entry.shares == kAllShares;
+    if (!whole || occlusion.hides(entry.cell)) continue;
     FARCELL_ASSIGN(const std::span<const Occluder> occluders, cache.of(entry.cell, bytesRead));
     occlusion.add(entry.cell, occluders);
   }
@@ -102,7 +104,9 @@ bool Occlusion::hides(uint32_t index) const {
   const CellRecord& cell = directory_.cells[index];
   const Model& model = directory_.model;
   const double halfSide = std::ldexp(0.5, model.grid.bits - static_cast<int>(cell.key.level));
-  const double pad = cell.firstViewPage == kNone ? 0 : kImpostorTexels * texelSize(model.settings.imageSize) * halfSide;
+  const double viewPad =
+      cell.firstViewPage == kNone ? 0 : kImpostorTexels * texelSize(model.settings.imageSize) * halfSide;
+  const double pad = std::max(viewPad, kMeshErrors * cell.geometricError / model.grid.step());
   glm::dvec2 min(INFINITY), max(-INFINITY);
   double nearest = 0;
   for (int corner = 0; corner < 8; ++corner) {

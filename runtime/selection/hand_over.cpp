@@ -73,9 +73,11 @@ Cut selectHandOver(const Directory& directory, const Viewpoints& viewpoints, con
   const glm::dvec3 eyeSteps = (camera.position - grid.origin) / grid.step();
   std::vector<Placed> placed;
   Cut cut;
+  double nearestSteps = cut.nearestSteps;
   for (int share = 0; share < kShares; ++share) {
     const SelectionSettings own = settingsOf(share, settings);
     cut = selectCut(directory, viewpoints, camera, width, height, own, hidden);
+    nearestSteps = std::min(nearestSteps, cut.nearestSteps);
     for (CutEntry entry : cut.entries) {
       entry.shares = static_cast<uint8_t>(1u << share);
       entry.errorPixels /= own.detail;
@@ -83,6 +85,7 @@ Cut selectHandOver(const Directory& directory, const Viewpoints& viewpoints, con
     }
   }
   merge(directory, std::move(placed), cut);
+  cut.nearestSteps = nearestSteps;
   return cut;
 }
 

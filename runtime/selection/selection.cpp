@@ -247,8 +247,10 @@ class Selector {
         continue;
       }
       const bool views = drawn[i] == Drawn::asViews;
+      const CellRecord& cell = directory_.cells[nodes_[i].cell];
+      cut_.nearestSteps = std::min(cut_.nearestSteps, distanceSteps(view_.eye, cell.content));
       if (hidden_ != nullptr && !hidden_->needs(nodes_[i].cell) && hidden_->hides(nodes_[i].cell))
-        leaveOut(directory_.cells[nodes_[i].cell], views);
+        leaveOut(cell, views);
       else if (views)
         addImpostor(nodes_[i].cell);
       else

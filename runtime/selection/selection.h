@@ -93,6 +93,8 @@ struct Cut {
     FrameWork work;
     uint64_t storedBytes = 0;
   } hidden;
+  // From the eye to the nearest content of what is drawn or left out as hidden, so that depths do not depend on that.
+  double nearestSteps = std::numeric_limits<double>::infinity();
   uint32_t culled = 0;  // cells (with all below) outside the frustum
 };
 

@@ -148,8 +148,9 @@ int mostSharesAtOnce(const Directory& directory, const std::vector<glm::dvec3>& 
   int most = 0;
   for (const glm::dvec3 eye : path) {
     const Camera camera = cameraAt(directory, eye);
-    const auto select = handOver ? selectHandOver : selectCut;
-    const Cut cut = select(directory, viewpoints(), camera, kWidth, kHeight, settingsOf(RenderMode::impostors));
+    const SelectionSettings settings = settingsOf(RenderMode::impostors);
+    const Cut cut = handOver ? selectHandOver(directory, viewpoints(), camera, kWidth, kHeight, settings)
+                             : selectCut(directory, viewpoints(), camera, kWidth, kHeight, settings);
     std::map<uint32_t, int> changed;
     for (int share = 0; share < kShares; ++share) {
       auto ways = waysOf(directory, cut, share);
