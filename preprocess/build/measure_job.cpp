@@ -111,12 +111,13 @@ std::vector<MeasureJob> measureJobs(const CellTree& tree, Measure measure) {
     if (cells[a].key.level != cells[b].key.level) return cells[a].key.level < cells[b].key.level;
     return cells[a].triangles < cells[b].triangles;
   });
-  const size_t wanted =
-      measure == Measure::all ? eligible.size() : std::clamp(cells.size() / 50, kLeastMeasured, kMostMeasured);
+  const size_t sample = std::clamp(cells.size() / 50, std::min(kUsuallyMeasured, cells.size() / 4), kMostMeasured);
+  const size_t wanted = measure == Measure::all ? eligible.size() : std::max(sample, kLeastMeasured);
   const size_t count = std::min(eligible.size(), wanted);
+  const size_t every = std::max<size_t>(4, (count + kMostAlternatives - 1) / kMostAlternatives);
   std::vector<MeasureJob> jobs;
   for (size_t i = 0; i < count; ++i)
-    jobs.push_back({eligible[(2 * i + 1) * eligible.size() / (2 * count)], i % 4 == 0});
+    jobs.push_back({eligible[(2 * i + 1) * eligible.size() / (2 * count)], i % every == 0});
   return jobs;
 }
 

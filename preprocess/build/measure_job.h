@@ -8,15 +8,18 @@
 
 namespace farcell {
 
-// REQUIRES: measure is not off. Of Measure::sample every fiftieth cell, but not fewer than kLeastMeasured nor more than
-// kMostMeasured, evenly spread over levels and, within each, over numbers of triangles; of Measure::all each. Cells
+// REQUIRES: measure is not off. Of Measure::sample every fiftieth cell, but at least kUsuallyMeasured or, where those are
+// more than a quarter of all, that quarter (measuring should not take longer than the rest of the build), and
+// between kLeastMeasured and kMostMeasured; evenly spread over levels and, within each, over numbers of triangles; of Measure::all each. Cells
 // without views, and those of more than kMaxMeasuredTriangles, are not among them. Depends on the tree alone.
 inline constexpr uint64_t kMaxMeasuredTriangles = 120'000;  // measured in the least memory that a build may have
-inline constexpr size_t kLeastMeasured = 24;
+inline constexpr size_t kLeastMeasured = 6;
+inline constexpr size_t kUsuallyMeasured = 24;
 inline constexpr size_t kMostMeasured = 400;
+inline constexpr size_t kMostAlternatives = 32;
 struct MeasureJob {
   uint32_t cell = 0;
-  bool alternatives = false;  // other views too: of every fourth
+  bool alternatives = false;  // other views too: of every fourth, or of kMostAlternatives
 };
 std::vector<MeasureJob> measureJobs(const CellTree& tree, Measure measure);
 
