@@ -7,7 +7,7 @@
 namespace farcell {
 namespace {
 
-constexpr double kEdgePixels = 1e-4;  // a sample this near to an edge is inside for both triangles at it
+constexpr double kEdgePixels = 1e-4;  // a sample this near to an inner edge is inside for both triangles at it
 constexpr uint64_t kWhole = ~uint64_t{0};
 
 }  // namespace
@@ -31,7 +31,7 @@ uint64_t CoverageTiles::maskOf(const std::array<Edge, 3>& edges, double x, doubl
   least.fill(1);
   for (const Edge& edge : edges) {
     const auto a = static_cast<float>(edge.a), b = static_cast<float>(edge.b);
-    const auto c = static_cast<float>(edge.a * x + edge.b * y + edge.c + kEdgePixels);
+    const auto c = static_cast<float>(edge.a * x + edge.b * y + edge.c);
     for (size_t i = 0; i < 64; ++i) least[i] = std::min(least[i], a * sampleX_[i] + b * sampleY_[i] + c);
   }
   uint64_t mask = 0;
@@ -40,7 +40,7 @@ uint64_t CoverageTiles::maskOf(const std::array<Edge, 3>& edges, double x, doubl
 }
 
 // Long because the edges, the depth's plane and the tiles' bounds share what is set up once for a triangle.
-void CoverageTiles::add(const std::array<glm::dvec3, 3>& corners) {
+void CoverageTiles::add(const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& inner) {
   const glm::dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0];
   const double area = u.x * v.y - u.y * v.x;
   if (!(std::abs(area) > 0)) return;
@@ -50,6 +50,7 @@ void CoverageTiles::add(const std::array<glm::dvec3, 3>& corners) {
     const double length = std::hypot(q.x - p.x, q.y - p.y) * (area > 0 ? 1 : -1);
     if (length == 0) return;
     edges[i] = {(p.y - q.y) / length, (q.x - p.x) / length, (p.x * q.y - q.x * p.y) / length};
+    edges[i].c += inner[i] ? kEdgePixels : -kSnapPixels;
   }
   const double depthX = (u.z * v.y - v.z * u.y) / area, depthY = (v.z * u.x - u.z * v.x) / area;
   const double depthAt0 = corners[0].z - depthX * corners[0].x - depthY * corners[0].y;

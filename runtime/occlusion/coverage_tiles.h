@@ -15,13 +15,18 @@
 
 namespace farcell {
 
+// That an edge may be drawn off its place: GPUs snap vertices to 1/256 of a pixel, along each axis.
+inline constexpr double kSnapPixels = 1.0 / 128;
+
 class CoverageTiles {
  public:
   // samples: where each lies in its pixel, [0, 1)^2, y up; 1 (tiles of 8 x 8 pixels) or 4 (of 4 x 4).
   CoverageTiles(int width, int height, std::span<const glm::vec2> samples);
 
-  // x, y in pixels, y up; z: depth, > 0. Triangles had best come nearest first.
-  void add(const std::array<glm::dvec3, 3>& corners);
+  // x, y in pixels, y up; z: depth, > 0. Triangles had best come nearest first. inner: of the edge from each corner to
+  // the next, whether another triangle is drawn from just this edge on to its other side; if so, samples on it are
+  // covered, else those nearer to it than kSnapPixels are not.
+  void add(const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& inner);
 
   // Whether every sample of the rectangle, cut to the picture, is covered by what is nearer than `depth` everywhere.
   // True where it lies beside the picture.

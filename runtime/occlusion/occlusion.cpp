@@ -9,7 +9,7 @@
 namespace farcell {
 namespace {
 
-constexpr size_t kKeptLeaves = 512;  // at most 160 KB each
+constexpr size_t kKeptLeaves = 512;  // at most 304 KB each
 constexpr size_t kMostLeaves = 64;   // of a frame
 constexpr uint64_t kMostTriangles = 32768;
 constexpr double kLeastAreaPx = 4;  // of a triangle, seen from the front
@@ -83,21 +83,37 @@ void Occlusion::add(uint32_t leaf, std::span<const Occluder> occluders) {
 // Cut at the near plane: a triangle, or two.
 void Occlusion::add(const Occluder& occluder) {
   std::array<glm::dvec3, 4> kept;
+  std::array<bool, 4> keptInner{};  // of the edge to the next; that along the near plane is not
   size_t count = 0;
   std::array<glm::dvec3, 3> corners;
   for (size_t i = 0; i < 3; ++i) corners[i] = cameraSpace(glm::dvec3(occluder.corners[i]));
   for (size_t i = 0; i < 3; ++i) {
     const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % 3];
-    if (a.z >= near_) kept[count++] = screen(a);
+    const bool isInner = inner(a, b, corners[(i + 2) % 3], cameraSpace(glm::dvec3(occluder.across[i])));
+    if (a.z >= near_) {
+      keptInner[count] = isInner;
+      kept[count++] = screen(a);
+    }
     if ((a.z < near_) != (b.z < near_)) {
       glm::dvec3 cut = a + (b - a) * ((near_ - a.z) / (b.z - a.z));
       cut.z = near_;
+      keptInner[count] = isInner && a.z < near_;
       kept[count++] = screen(cut);
     }
   }
   if (count < 3) return;
   ++triangles_;
-  for (size_t i = 2; i < count; ++i) tiles_.add({kept[0], kept[i - 1], kept[i]});
+  for (size_t i = 2; i < count; ++i)
+    tiles_.add({kept[0], kept[i - 1], kept[i]},
+               {keptInner[0] || i > 2, keptInner[i - 1], keptInner[i] || i + 1 < count});
+}
+
+// By the plane through the eye and the edge; a neighbour that snapping could flatten or turn over does not count.
+bool Occlusion::inner(glm::dvec3 a, glm::dvec3 b, glm::dvec3 own, glm::dvec3 across) const {
+  if (across.z < near_) return false;
+  const glm::dvec3 normal = glm::cross(a, b);
+  const double beyond = glm::dot(normal, across) * (glm::dot(normal, own) > 0 ? -1 : 1);
+  return beyond * focalPx_ > kSnapPixels * across.z * std::hypot(normal.x, normal.y);
 }
 
 bool Occlusion::hides(uint32_t index) const {

@@ -3,8 +3,9 @@
 //
 // Conservative: a cell is called hidden only where every sample of the picture that its content box, 2 pixels around
 // it and what an impostor's filter adds can reach is covered by a nearer triangle of a leaf that is drawn in full. The
-// samples are those of the picture, so that a gap between two triangles that the picture shows is a gap here; the 2
-// pixels stand for the rounding of rasterisers, 1/256 of a pixel.
+// samples are those of the picture, so that a gap between two triangles that the picture shows is a gap here.
+// Rasterisers round vertices to 1/256 of a pixel: the 2 pixels stand for that in what is hidden, kSnapPixels in what
+// hides.
 #pragma once
 
 #include <cstdint>
@@ -81,6 +82,8 @@ class Occlusion : public HiddenCells {
   Occlusion(const Directory& directory, const Camera& camera, const OcclusionView& view);
   void add(uint32_t leaf, std::span<const Occluder> occluders);
   void add(const Occluder& occluder);
+  // Whether the triangles a, b, own and a, b, across (camera space) lie on different sides of their edge on screen.
+  bool inner(glm::dvec3 a, glm::dvec3 b, glm::dvec3 own, glm::dvec3 across) const;
   glm::dvec3 cameraSpace(glm::dvec3 steps) const;  // x right, y up, z ahead, steps
   glm::dvec3 screen(glm::dvec3 camera) const;      // pixels, y up; z: 1 / ahead
 

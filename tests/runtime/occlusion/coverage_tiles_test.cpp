@@ -49,7 +49,7 @@ TEST_P(CoverageTilesTest, whatIsCoveredIsNearerAtEverySample) {
       for (glm::dvec3& corner : triangle)
         corner = {(2 * part(random) - 0.5) * kWidth, (2 * part(random) - 0.5) * kHeight, 0.1 + part(random)};
       triangles.push_back(triangle);
-      tiles.add(triangle);
+      tiles.add(triangle, {});
     }
     for (int i = 0; i < 200; ++i) {
       const glm::dvec2 min(part(random) * kWidth, part(random) * kHeight);
@@ -85,11 +85,43 @@ TEST_P(CoverageTilesTest, aRectangleOfManyTrianglesCoversAsOne) {
                                                glm::dvec3(-9, kHeight + 9, 0.5)};
     for (size_t i = 0; i < 4; ++i) {
       EXPECT_FALSE(tiles.covers({0, 0}, {kWidth, kHeight}, 0.4));
-      tiles.add({middle, corners[i], corners[(i + 1) % 4]});
+      tiles.add({middle, corners[i], corners[(i + 1) % 4]}, {true, false, true});
     }
     EXPECT_TRUE(tiles.covers({0, 0}, {kWidth, kHeight}, 0.4)) << "seed 4, round " << round;
     EXPECT_FALSE(tiles.covers({0, 0}, {kWidth, kHeight}, 0.6));
   }
+}
+
+// Of two triangles, over the picture's height; sides: whether the left and right edges are inner.
+void addColumn(CoverageTiles& tiles, double x0, double x1, bool sides) {
+  const glm::dvec3 a(x0, -9, 0.5), b(x1, -9, 0.5), c(x1, kHeight + 9, 0.5), d(x0, kHeight + 9, 0.5);
+  tiles.add({a, b, c}, {false, sides, true});
+  tiles.add({a, c, d}, {true, false, sides});
+}
+
+TEST_P(CoverageTilesTest, samplesOnTheEdgeInsideAQuadAreCovered) {
+  const glm::vec2 sample = samples()[0];  // the diagonal meets it in each pixel that it passes
+  const double up = static_cast<double>(sample.y - sample.x);
+  const glm::dvec3 a(-9, up - 9, 0.5), b(91, up - 9, 0.5), c(91, up + 91, 0.5), d(-9, up + 91, 0.5);
+  for (const bool inner : {false, true}) {
+    CoverageTiles tiles(kWidth, kHeight, samples());
+    tiles.add({a, b, c}, {false, false, inner});
+    tiles.add({d, a, c}, {false, inner, false});
+    EXPECT_EQ(tiles.covers({8, 8}, {12, 12}, 0.4), inner);
+    EXPECT_TRUE(tiles.covers({40, 8}, {44, 12}, 0.4));
+  }
+}
+
+TEST_P(CoverageTilesTest, samplesOnASilhouetteAreNotCovered) {
+  const double sample = 20 + static_cast<double>(samples()[0].x);
+  for (const double off : {0.0, 1.0 / 256, -1.0 / 256, 1.0 / 64, -1.0 / 64})
+    for (const bool inner : {false, true}) {
+      CoverageTiles tiles(kWidth, kHeight, samples());
+      addColumn(tiles, -9, sample + off, inner);
+      addColumn(tiles, sample + off, kWidth + 9, inner);
+      EXPECT_EQ(tiles.covers({20, 8}, {21, 12}, 0.4), inner || std::abs(off) > kSnapPixels) << off << " " << inner;
+      EXPECT_TRUE(tiles.covers({5, 8}, {7, 12}, 0.4));
+    }
 }
 
 TEST_P(CoverageTilesTest, whatLiesBesideThePictureIsCovered) {
@@ -100,9 +132,9 @@ TEST_P(CoverageTilesTest, whatLiesBesideThePictureIsCovered) {
 
 TEST_P(CoverageTilesTest, degenerateTrianglesCoverNothing) {
   CoverageTiles tiles(kWidth, kHeight, samples());
-  tiles.add({glm::dvec3(0, 0, 1), glm::dvec3(20, 20, 1), glm::dvec3(40, 40, 1)});
-  tiles.add({glm::dvec3(5, 5, 1), glm::dvec3(5, 5, 1), glm::dvec3(5, 9, 1)});
-  tiles.add({glm::dvec3(NAN, 5, 1), glm::dvec3(50, 5, 1), glm::dvec3(5, 9, 1)});
+  tiles.add({glm::dvec3(0, 0, 1), glm::dvec3(20, 20, 1), glm::dvec3(40, 40, 1)}, {});
+  tiles.add({glm::dvec3(5, 5, 1), glm::dvec3(5, 5, 1), glm::dvec3(5, 9, 1)}, {});
+  tiles.add({glm::dvec3(NAN, 5, 1), glm::dvec3(50, 5, 1), glm::dvec3(5, 9, 1)}, {});
   EXPECT_FALSE(tiles.covers({0, 0}, {40, 40}, 0.5));
 }
 
