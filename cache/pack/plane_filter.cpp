@@ -96,14 +96,14 @@ class Stepper {
   std::array<uint8_t, 256> toMultiple_{};  // what a residual lacks to the next multiple
 };
 
-constexpr size_t kChunk = 8;  // texels of a 64-bit word
+constexpr size_t kWord = 8;  // texels of a 64-bit word
 
 uint64_t load(const uint8_t* bytes) {
   uint64_t word = 0;
-  std::memcpy(&word, bytes, kChunk);
+  std::memcpy(&word, bytes, kWord);
   return word;
 }
-void store(uint64_t word, uint8_t* bytes) { std::memcpy(bytes, &word, kChunk); }
+void store(uint64_t word, uint8_t* bytes) { std::memcpy(bytes, &word, kWord); }
 
 // The running sums of the eight bytes of a word, each modulo 256, on top of `before`. Two lanes of bytes in 16 bits
 // each hold what the products carry; a big-endian machine would number the bytes the other way.
@@ -119,9 +119,9 @@ uint64_t sums(uint64_t bytes, uint8_t before) {
 void sumRow(uint8_t* row, size_t width) {
   uint8_t sum = 0;
   size_t x = 0;
-  for (; x + kChunk <= width; x += kChunk) {
+  for (; x + kWord <= width; x += kWord) {
     store(sums(load(row + x), sum), row + x);
-    sum = row[x + kChunk - 1];
+    sum = row[x + kWord - 1];
   }
   for (; x < width; ++x) sum = row[x] = static_cast<uint8_t>(row[x] + sum);
 }
@@ -145,12 +145,12 @@ class ColourRow {
   void undo(uint8_t* colour, const uint8_t* alpha) {
     left_ = upLeft_ = 0;
     size_t x = 0;
-    for (; x + kChunk <= row_.size(); x += kChunk) {
+    for (; x + kWord <= row_.size(); x += kWord) {
       const uint64_t alphas = load(alpha + x);
       if (allOrNothing(load(colour + x), alphas))
         undoWhole(x, colour + x, alphas);
       else
-        for (size_t i = x; i < x + kChunk; ++i) undoTexel(i, colour[i], alpha[i]);
+        for (size_t i = x; i < x + kWord; ++i) undoTexel(i, colour[i], alpha[i]);
     }
     for (; x < row_.size(); ++x) undoTexel(x, colour[x], alpha[x]);
   }
@@ -172,22 +172,22 @@ class ColourRow {
   // covered.
   void undoWhole(size_t x, uint8_t* colour, uint64_t alphas) {
     uint8_t* const row = row_.data() + x;
-    const uint8_t lastUp = row[kChunk - 1];
+    const uint8_t lastUp = row[kWord - 1];
     if constexpr (std::is_same_v<Prediction, Average>) {
-      for (size_t i = 0; i < kChunk; ++i)
+      for (size_t i = 0; i < kWord; ++i)
         left_ = row[i] = static_cast<uint8_t>(colour[i] + predict_(left_, row[i], upLeft_));
     } else if constexpr (std::is_same_v<Prediction, Up>) {
-      addRow(colour, row, kChunk);
+      addRow(colour, row, kWord);
     } else if constexpr (std::is_same_v<Prediction, Gradient>) {
-      std::array<uint8_t, kChunk> aboveUp;
+      std::array<uint8_t, kWord> aboveUp;
       store(sums(load(colour), static_cast<uint8_t>(left_ - upLeft_)), aboveUp.data());
-      addRow(aboveUp.data(), row, kChunk);
+      addRow(aboveUp.data(), row, kWord);
     } else if constexpr (std::is_same_v<Prediction, Left>) {
       store(sums(load(colour), left_), row);
     } else {
       store(load(colour), row);
     }
-    left_ = row[kChunk - 1];
+    left_ = row[kWord - 1];
     upLeft_ = lastUp;
     store(load(row) & alphas, colour);
   }

@@ -18,9 +18,9 @@ namespace farcell {
 namespace {
 
 constexpr uint64_t kMaxFileBytes = 1 << 14;
-constexpr size_t kCosts = 5;
+constexpr size_t kNumbers = 5;
 
-std::array<double, kCosts> numbersOf(const DrawCosts& costs) {
+std::array<double, kNumbers> numbersOf(const DrawCosts& costs) {
   return {costs.picturePixelMs, costs.triangleMs, costs.meshPixelMs, costs.impostorMs, costs.impostorPixelMs};
 }
 
@@ -36,17 +36,17 @@ std::string oneLine(std::string text) {
 }
 
 Result<DrawCosts> parseLine(const std::string& line, size_t number) {
-  std::array<double, kCosts> values{};
+  std::array<double, kNumbers> values{};
   const char* at = line.data();
   const char* end = at + line.size();
   for (double& value : values) {
     while (at != end && *at == ' ') ++at;
     const auto read = std::from_chars(at, end, value);
     if (read.ec != std::errc{} || !std::isfinite(value) || value < 0)
-      return fail(ErrorKind::corrupt, "line {}: expected {} numbers of at least 0, found '{}'", number, kCosts, line);
+      return fail(ErrorKind::corrupt, "line {}: expected {} numbers of at least 0, found '{}'", number, kNumbers, line);
     at = read.ptr;
   }
-  if (at != end) return fail(ErrorKind::corrupt, "line {}: expected {} numbers, found '{}'", number, kCosts, line);
+  if (at != end) return fail(ErrorKind::corrupt, "line {}: expected {} numbers, found '{}'", number, kNumbers, line);
   return DrawCosts{values[0], values[1], values[2], values[3], values[4]};
 }
 
