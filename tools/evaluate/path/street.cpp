@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kCandidates = 4096;
 constexpr int kBeside = 6;  // columns
-constexpr double kFovYRad = std::numbers::pi / 3;
+constexpr double kStreetFovYRad = std::numbers::pi / 3;
 
 // A line on the map, walked from its start.
 struct Line {
@@ -83,7 +83,7 @@ Result<std::vector<Camera>> streetPath(const PackFile& pack, int count, std::mt1
   for (int frame = 0; frame < count; ++frame) {
     const double along = columns * frame / (count - 1);
     frames.push_back({fmt::format("frame {}", frame), map.pointAt(line.at(along, 0), height),
-                      map.pointAt(line.at(along + columns, 0), height), model.up, kFovYRad});
+                      map.pointAt(line.at(along + columns, 0), height), model.up, kStreetFovYRad});
   }
   return frames;
 }
