@@ -1,7 +1,7 @@
 farcell_tests(runtime/gl DEPS farcell_runtime_gl farcell_shaders_shared)
 farcell_tests(runtime/camera DEPS farcell_runtime_camera)
 farcell_tests(runtime/cost DEPS farcell_runtime_cost)
-farcell_tests(runtime/selection DEPS farcell_runtime_selection)
+farcell_tests(runtime/selection DEPS farcell_runtime_selection APART hand_over_test.cpp)
 farcell_tests(runtime/draw DEPS farcell_runtime_draw)
 farcell_tests(runtime/occlusion DEPS farcell_runtime_occlusion)
 farcell_tests(runtime/calibration DEPS farcell_runtime_calibration)

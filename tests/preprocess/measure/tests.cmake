@@ -1,1 +1,1 @@
-farcell_tests(preprocess/measure DEPS farcell_preprocess_measure farcell_runtime farcell_tests_support)
+farcell_tests(preprocess/measure DEPS farcell_preprocess_measure farcell_runtime farcell_tests_support APART look_gl_test.cpp)
