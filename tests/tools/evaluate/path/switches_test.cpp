@@ -19,9 +19,15 @@ CutEntry impostor(uint32_t cell, uint32_t view, uint32_t secondView = 9) {
 }
 CutEntry triangles(uint32_t cell) { return {.cell = cell}; }
 
+Cut cutOf(std::vector<CutEntry> entries) {
+  Cut cut;
+  cut.entries = std::move(entries);
+  return cut;
+}
+
 Switches count(std::vector<CutEntry> before, std::vector<CutEntry> now,
                ImpostorKind kind = ImpostorKind::depthCorrected) {
-  return countSwitches(tree(), {std::move(before), 0, 0}, {std::move(now), 0, 0}, kind);
+  return countSwitches(tree(), cutOf(std::move(before)), cutOf(std::move(now)), kind);
 }
 
 TEST(Switches, NothingSwitchesWhereTheCutIsTheSameInAnyOrder) {
