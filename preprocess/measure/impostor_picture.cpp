@@ -79,8 +79,12 @@ class Painter {
       : frame_(viewFrame(toward)), pixel_(2 * kViewHalfExtent / edge), edge_(edge) {
     const double texel = texelSize(views[0].texels->imageSize);
     const float pad = static_cast<float>(texel) * shared::kBoxPadTexels;
-    look_.boxMin = content.min - pad;
-    look_.boxMax = content.max + pad;
+    look_.boxMin = content.min;
+    look_.boxMax = content.max;
+    for (int axis = 0; axis < 3; ++axis) {  // not towards the eye, as in impostor.vert
+      if (toward[axis] >= 0) look_.boxMin[axis] -= pad;
+      if (toward[axis] <= 0) look_.boxMax[axis] += pad;
+    }
     look_.lod = static_cast<float>(std::log2(pixel_ / texel) - std::log2(double{kRays}) / 2) + shared::kLodBias;
     for (size_t i = 0; i < VIEWS; ++i) {
       const ViewTexels& texels = *views[i].texels;

@@ -7,7 +7,8 @@
 namespace farcell {
 namespace {
 
-// Plain text in roff: backslashes and minus signs as such, and no line that looks like a request.
+// Plain text in roff: backslashes and minus signs as such, no line that looks like a request, and lists without spaces
+// broken where a line is full.
 std::string roff(const std::string& text) {
   std::string escaped;
   bool lineBegins = true;
@@ -19,6 +20,7 @@ std::string roff(const std::string& text) {
       escaped += "\\-";
     else
       escaped += c;
+    if (c == ',') escaped += "\\:";
     lineBegins = c == '\n';
   }
   return escaped;

@@ -36,7 +36,9 @@ FrameImage drawnFromAfar(DrawnPack& drawn, glm::dvec3 toward, int edge, Impostor
   Camera camera{"far", centre + toward * (kFar * half), centre, viewFrame(toward).up,
                 2 * std::atan(kViewHalfExtent / kFar)};
   FrameImage image;
-  drawn.draw(camera, sized(edge, edge, RenderMode::impostors, 4, kind), image);
+  RenderSettings settings = sized(edge, edge, RenderMode::impostors, 4, kind);
+  settings.handOver = false;  // the same views for all samples
+  drawn.draw(camera, settings, image);
   return image;
 }
 
