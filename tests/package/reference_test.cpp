@@ -11,7 +11,7 @@ std::string pageFile(const std::string& program) { return FARCELL_REFERENCE_DIR 
 // Without the escapes of roff.
 std::string pageText(const std::string& program) {
   const std::string text = printed("gzip -dc " + pageFile(program)).text;
-  return std::regex_replace(std::regex_replace(text, std::regex("\\\\f[BIR]"), ""), std::regex("\\\\-"), "-");
+  return std::regex_replace(std::regex_replace(text, std::regex("\\\\f[BIR]|\\\\:"), ""), std::regex("\\\\-"), "-");
 }
 
 bool installed(const std::string& command) { return printed("command -v " + command).code == 0; }

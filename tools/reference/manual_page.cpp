@@ -11,8 +11,9 @@ namespace {
 // broken where a line is full.
 std::string roff(const std::string& text) {
   std::string escaped;
-  bool lineBegins = true;
+  bool lineBegins = true, afterComma = false;
   for (const char c : text) {
+    if (afterComma && c != ' ') escaped += "\\:";
     if (lineBegins && (c == '.' || c == '\'')) escaped += "\\&";
     if (c == '\\')
       escaped += "\\e";
@@ -20,8 +21,8 @@ std::string roff(const std::string& text) {
       escaped += "\\-";
     else
       escaped += c;
-    if (c == ',') escaped += "\\:";
     lineBegins = c == '\n';
+    afterComma = c == ',';
   }
   return escaped;
 }
