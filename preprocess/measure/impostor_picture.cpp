@@ -70,7 +70,10 @@ namespace {
 
 // A ray's points s = 0 and s = -1 lie so far behind and before the centre: outside every box.
 constexpr double kReach = 2;
-constexpr int kRays = 4;
+// Where the object's outline differs from the view's, no texel knows how much of the pixel it covers: rays do. These
+// are where the renderer's four samples of a pixel lie.
+constexpr std::array<glm::vec2, 4> kRayOffsets = {glm::vec2(-0.125f, -0.375f), glm::vec2(0.375f, -0.125f),
+                                                  glm::vec2(0.125f, 0.375f), glm::vec2(-0.375f, 0.125f)};
 
 template <int VIEWS>
 class Painter {
@@ -85,7 +88,8 @@ class Painter {
       if (toward[axis] >= 0) look_.boxMin[axis] -= pad;
       if (toward[axis] <= 0) look_.boxMax[axis] += pad;
     }
-    look_.lod = static_cast<float>(std::log2(pixel_ / texel) - std::log2(double{kRays}) / 2) + shared::kLodBias;
+    look_.lod = static_cast<float>(std::log2(pixel_ / texel) - std::log2(static_cast<double>(kRayOffsets.size())) / 2) +
+                shared::kLodBias;
     for (size_t i = 0; i < VIEWS; ++i) {
       const ViewTexels& texels = *views[i].texels;
       ResidentView resident = texels.view;
@@ -99,9 +103,9 @@ class Painter {
 
   glm::vec4 pixel(int x, int y) {
     glm::vec4 sum(0);
-    for (const glm::vec2& offset : shared::Look<VIEWS>::kRayOffsets)
+    for (const glm::vec2& offset : kRayOffsets)
       sum += ray(x + 0.5 + static_cast<double>(offset.x), y + 0.5 + static_cast<double>(offset.y));
-    return sum * (1.0f / kRays);
+    return sum * (1.0f / static_cast<float>(kRayOffsets.size()));
   }
 
  private:

@@ -39,10 +39,6 @@ FARCELL_CONST float kFullThirdWeight = 0.1f;  // from which on what the third vi
 FARCELL_CONST float kNowhere = 1e9f;
 FARCELL_CONST int kMaxLookups = 1 + kMarchSteps + kBisections;
 
-// Where the object's outline differs from the view's, no texel knows how much of the pixel it covers: rays do.
-FARCELL_CONST vec2 kRayOffsets[4] = {vec2(-0.125f, -0.375f), vec2(0.375f, -0.125f), vec2(0.125f, 0.375f),
-                                     vec2(-0.375f, 0.125f)};
-
 // What the next look-up is for.
 FARCELL_CONST int kMarch = 0;
 FARCELL_CONST int kBisect = 1;

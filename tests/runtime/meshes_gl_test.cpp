@@ -1,49 +1,26 @@
 // Simplified meshes of inner cells, of packs as the build makes them.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
 #include "cache/base/file.h"
-#include "cache/base/progress.h"
-#include "preprocess/build/build.h"
-#include "tests/runtime/renderer_fixture.h"
+#include "tests/runtime/built_pack.h"
 
 namespace farcell {
 namespace {
 
 // A sphere of 8 * 4^subdivisions triangles around the origin, in leaves of a few hundred.
 DrawnPack builtSphere(double radius, int subdivisions, uint64_t residentBytes = kPlentyBytes) {
-  const auto directory =
-      std::filesystem::temp_directory_path() / fmt::format("farcell_meshes_{}", static_cast<int>(getpid()));
-  std::filesystem::create_directories(directory);
   std::string text = "OFF\n";
   const auto triangles = sphereTriangles({0, 0, 0}, radius, subdivisions, 0);
   text += fmt::format("{} {} 0\n", 3 * triangles.size(), triangles.size());
   for (const SyntheticTriangle& triangle : triangles)
     for (const glm::dvec3& p : triangle.corners) text += fmt::format("{:.17g} {:.17g} {:.17g}\n", p.x, p.y, p.z);
   for (size_t i = 0; i < triangles.size(); ++i) text += fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
-  const std::filesystem::path mesh = directory / "sphere.off", path = directory / "sphere.far";
-  EXPECT_TRUE(writeTextFile(mesh, text));
-  BuildOptions options;
-  options.settings.leafTriangles = 500;
-  options.settings.views = 12;
-  options.settings.imageSize = 16;
-  options.settings.samples = 1;
-  Progress silent(false);
-  const auto built = buildPack({&mesh, 1}, path, options, silent);
-  if (!built) throw std::runtime_error(built.error().message);
-  DrawnPack drawn;
-  auto pack = PackFile::open(path);
-  std::filesystem::remove_all(directory);
-  if (!pack) throw std::runtime_error(pack.error().message);
-  drawn.pack = std::make_unique<PackFile>(std::move(*pack));
-  auto renderer = Renderer::create(sharedContext(), *drawn.pack, residentBytes);
-  if (!renderer) throw std::runtime_error(renderer.error().message);
-  drawn.renderer = std::make_unique<Renderer>(std::move(*renderer));
-  return drawn;
+  return buildDrawn(
+      "sphere.off", [&](const std::filesystem::path& mesh) { return writeTextFile(mesh, text); }, residentBytes);
 }
 
 RenderSettings meshes(double meshPixels, int samples = 4) {

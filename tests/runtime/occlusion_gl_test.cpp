@@ -1,42 +1,20 @@
 // Pictures with and without what nearer triangles hide, of a small procedural city as the build makes it.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <random>
 
-#include "cache/base/progress.h"
 #include "datasets/city/city.h"
-#include "preprocess/build/build.h"
-#include "tests/runtime/renderer_fixture.h"
+#include "tests/runtime/built_pack.h"
 
 namespace farcell {
 namespace {
 
 DrawnPack builtCity(uint64_t triangles) {
-  const auto directory =
-      std::filesystem::temp_directory_path() / fmt::format("farcell_occlusion_{}", static_cast<int>(getpid()));
-  std::filesystem::create_directories(directory);
-  const std::filesystem::path mesh = directory / "city.ply", path = directory / "city.far";
-  Progress silent(false);
-  const auto written = writeCity({.triangles = triangles, .seed = 2}, mesh, silent);
-  if (!written) throw std::runtime_error(written.error().message);
-  BuildOptions options;
-  options.settings.leafTriangles = 500;
-  options.settings.views = 12;
-  options.settings.imageSize = 16;
-  options.settings.samples = 1;
-  const auto built = buildPack({&mesh, 1}, path, options, silent);
-  if (!built) throw std::runtime_error(built.error().message);
-  DrawnPack drawn;
-  auto pack = PackFile::open(path);
-  std::filesystem::remove_all(directory);
-  if (!pack) throw std::runtime_error(pack.error().message);
-  drawn.pack = std::make_unique<PackFile>(std::move(*pack));
-  auto renderer = Renderer::create(sharedContext(), *drawn.pack, kPlentyBytes);
-  if (!renderer) throw std::runtime_error(renderer.error().message);
-  drawn.renderer = std::make_unique<Renderer>(std::move(*renderer));
-  return drawn;
+  return buildDrawn("city.ply", [&](const std::filesystem::path& mesh) -> Result<> {
+    Progress silent(false);
+    FARCELL_TRY(writeCity({.triangles = triangles, .seed = 2}, mesh, silent));
+    return {};
+  });
 }
 
 // Low over the ground, somewhere, looking about; every fourth from above.

@@ -7,22 +7,15 @@
 #include <cstdlib>
 #include <string>
 
-#include "cache/schema/viewpoints.h"
 #include "runtime/calibration/calibration.h"
 #include "runtime/renderer.h"
-#include "tools/evaluate/plan/auto_cameras.h"
+#include "tests/bench/bench_cameras.h"
 
 namespace farcell {
 namespace {
 
 constexpr uint64_t kResidentBytes = 2'000'000'000;
 constexpr const char* kKinds[] = {"flat", "A", "B"};
-
-Result<std::vector<Camera>> loadCameras(const std::string& words, const Model& model) {
-  if (words.find_first_not_of("0123456789") != std::string::npos) return readCameras(words);
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
-  return autoCameras(model, viewpoints, std::atoi(words.c_str()));
-}
 
 Result<CostModel> calibrate(GlContext& context) {
   const auto start = std::chrono::steady_clock::now();

@@ -6,10 +6,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "cache/schema/viewpoints.h"
 #include "runtime/renderer.h"
+#include "tests/bench/bench_cameras.h"
 #include "tools/evaluate/metrics/metrics.h"
-#include "tools/evaluate/plan/auto_cameras.h"
 #include "tools/evaluate/reference/reference.h"
 
 namespace farcell {
@@ -55,12 +54,6 @@ std::vector<Way> allWays() {
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
-}
-
-Result<std::vector<Camera>> loadCameras(const std::string& words, const Model& model) {
-  if (words.find_first_not_of("0123456789") != std::string::npos) return readCameras(words);
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
-  return autoCameras(model, viewpoints, std::atoi(words.c_str()));
 }
 
 Result<> benchCamera(Renderer& renderer, const Camera& camera, const ReferenceImage& reference, int frames) {

@@ -9,11 +9,11 @@
 
 #include "cache/schema/viewpoints.h"
 #include "runtime/renderer.h"
+#include "tests/bench/bench_cameras.h"
+#include "tests/bench/traced_cell.h"
 #include "tools/evaluate/metrics/images.h"
-#include "tools/evaluate/plan/auto_cameras.h"
 #include "tools/evaluate/reference/leaves.h"
 #include "tools/evaluate/reference/reference.h"
-#include "tools/evaluate/reference/traced_geometry.h"
 
 namespace farcell {
 namespace {
@@ -48,29 +48,6 @@ std::vector<Way> allWays() {
   return ways;
 }
 
-Result<std::vector<Camera>> loadCameras(const std::string& words, const Model& model) {
-  if (words.find_first_not_of("0123456789") != std::string::npos) return readCameras(words);
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
-  return autoCameras(model, viewpoints, std::atoi(words.c_str()));
-}
-
-Result<TracedGeometry> traced(const PackFile& pack, uint32_t index, RTCDevice device) {
-  const Grid& grid = pack.directory().model.grid;
-  const CellRecord& cell = pack.directory().cells[index];
-  LocalTriangles local;
-  local.origin = cellCentre(grid, cell.key);
-  local.unit = cellHalfSide(grid, cell.key);
-  const float steps = std::ldexp(1.0f, grid.bits - static_cast<int>(cell.key.level));
-  for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
-    FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(cell.firstGeometryPage + part));
-    const auto first = static_cast<uint32_t>(local.positions.size());
-    for (const glm::uvec3& p : page.positions) local.positions.push_back(glm::vec3(p) * (2 / steps) - glm::vec3(1));
-    for (size_t i = 0; i + 2 < page.indices.size(); i += 3)
-      local.triangles.push_back(glm::uvec3(page.indices[i], page.indices[i + 1], page.indices[i + 2]) + first);
-  }
-  return buildTracedGeometry(device, std::move(local));
-}
-
 bool meets(const TracedGeometry& geometry, glm::dvec3 eye, glm::dvec3 direction) {
   const glm::vec3 origin((eye - geometry.triangles.origin) / geometry.triangles.unit);
   RTCRay ray{};
@@ -92,7 +69,7 @@ Result<std::vector<uint32_t>> owners(const PackFile& pack, const Camera& camera,
   const ReferenceView view = referenceView(camera, width, height);
   std::vector<uint32_t> owner(static_cast<size_t>(width) * height, kNone);
   for (const VisibleLeaf& leaf : leavesFrontToBack(pack.directory(), view)) {
-    FARCELL_ASSIGN(const TracedGeometry geometry, traced(pack, leaf.cell, device.get()));
+    FARCELL_ASSIGN(const TracedGeometry geometry, traceCell(pack, leaf.cell, device.get()));
     for (int y = leaf.bounds.y0; y < leaf.bounds.y1; ++y)
       for (int x = leaf.bounds.x0; x < leaf.bounds.x1; ++x) {
         uint32_t& pixel = owner[static_cast<size_t>(y) * width + x];

@@ -9,30 +9,13 @@
 #include <string>
 
 #include "runtime/renderer.h"
-#include "tools/evaluate/reference/traced_geometry.h"
+#include "tests/bench/traced_cell.h"
 
 namespace farcell {
 namespace {
 
 constexpr uint64_t kResidentBytes = 2'000'000'000;
 constexpr double kEyeHeight = 1.7, kGroundDepth = 4;
-
-Result<TracedGeometry> traced(const PackFile& pack, uint32_t index, RTCDevice device) {
-  const Grid& grid = pack.directory().model.grid;
-  const CellRecord& cell = pack.directory().cells[index];
-  LocalTriangles local;
-  local.origin = cellCentre(grid, cell.key);
-  local.unit = cellHalfSide(grid, cell.key);
-  const float steps = std::ldexp(1.0f, grid.bits - static_cast<int>(cell.key.level));
-  for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
-    FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(cell.firstGeometryPage + part));
-    const auto first = static_cast<uint32_t>(local.positions.size());
-    for (const glm::uvec3& p : page.positions) local.positions.push_back(glm::vec3(p) * (2 / steps) - glm::vec3(1));
-    for (size_t i = 0; i + 2 < page.indices.size(); i += 3)
-      local.triangles.push_back(glm::uvec3(page.indices[i], page.indices[i + 1], page.indices[i + 2]) + first);
-  }
-  return buildTracedGeometry(device, std::move(local));
-}
 
 // Height of the highest surface over a place, z up; -infinity: none.
 Result<double> surfaceOver(const PackFile& pack, RTCDevice device, double x, double y) {
@@ -44,7 +27,7 @@ Result<double> surfaceOver(const PackFile& pack, RTCDevice device, double x, dou
     const glm::dvec3 min = directory.model.grid.worldFromGrid(cell.content.min);
     const glm::dvec3 max = directory.model.grid.worldFromGrid(cell.content.max);
     if (x < min.x || x > max.x || y < min.y || y > max.y) continue;
-    FARCELL_ASSIGN(const TracedGeometry geometry, traced(pack, i, device));
+    FARCELL_ASSIGN(const TracedGeometry geometry, traceCell(pack, i, device));
     const glm::dvec3 from = (glm::dvec3(x, y, max.z + 1) - geometry.triangles.origin) / geometry.triangles.unit;
     RTCRayHit ray{};
     ray.ray.org_x = static_cast<float>(from.x), ray.ray.org_y = static_cast<float>(from.y);
