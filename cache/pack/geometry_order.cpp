@@ -2,6 +2,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 
 #include "cache/base/check.h"
 #include "cache/pack/connectivity.h"
@@ -29,6 +30,32 @@ uint32_t trianglesAtBusiestVertex(const GeometryPage& page) {
   return *std::max_element(counts.begin(), counts.end());
 }
 
+// The same for each corner that a triangle may start at.
+std::array<uint32_t, 3> canonical(const uint32_t* t) {
+  using Corners = std::array<uint32_t, 3>;
+  return std::min({Corners{t[0], t[1], t[2]}, Corners{t[1], t[2], t[0]}, Corners{t[2], t[0], t[1]}});
+}
+
+// `values` of the triangles of `before` for those of `after`: the same ones in another order.
+std::vector<uint32_t> inNewOrder(std::span<const uint32_t> values, std::span<const uint32_t> before,
+                                 std::span<const uint32_t> after) {
+  struct Entry {
+    std::array<uint32_t, 3> corners;
+    uint32_t triangle;
+    auto operator<=>(const Entry&) const = default;
+  };
+  const auto sorted = [](std::span<const uint32_t> indices) {
+    std::vector<Entry> entries(indices.size() / 3);
+    for (size_t i = 0; i < entries.size(); ++i) entries[i] = {canonical(&indices[3 * i]), static_cast<uint32_t>(i)};
+    std::sort(entries.begin(), entries.end());
+    return entries;
+  };
+  const std::vector<Entry> from = sorted(before), to = sorted(after);
+  std::vector<uint32_t> result(values.size());
+  for (size_t i = 0; i < from.size() && !values.empty(); ++i) result[to[i].triangle] = values[from[i].triangle];
+  return result;
+}
+
 }  // namespace
 
 GeometryPage optimisedOrder(const GeometryPage& page) {
@@ -45,6 +72,7 @@ GeometryPage optimisedOrder(const GeometryPage& page) {
   else
     result.indices = page.indices;
   rotateForCoding(result.indices);
+  if (!page.shown.empty()) result.shown = inNewOrder(page.shown, page.indices, result.indices);
   std::vector<uint32_t> remap(page.positions.size());
   const size_t used = meshopt_optimizeVertexFetchRemap(remap.data(), result.indices.data(), result.indices.size(),
                                                        page.positions.size());

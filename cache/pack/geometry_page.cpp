@@ -15,6 +15,7 @@ constexpr int kGeometryZlibLevel = 4;  // 6: 1 to 2 % fewer bytes (tests/bench/c
 constexpr uint64_t kPageHeaderBytes = 16;
 constexpr uint32_t kHasColours = 1;
 constexpr uint32_t kHasNormals = 2;
+constexpr uint32_t kHasShown = 8;
 
 struct Header {
   uint32_t vertexCount = 0;
@@ -28,7 +29,8 @@ uint64_t wordsPerVertex(const Header& header) {
 }
 
 uint64_t decodedBytes(const Header& header) {
-  return 4 * (wordsPerVertex(header) * header.vertexCount + 3 * uint64_t{header.triangleCount});
+  const uint64_t wordsPerTriangle = 3u + ((header.flags & kHasShown) != 0);
+  return 4 * (wordsPerVertex(header) * header.vertexCount + wordsPerTriangle * header.triangleCount);
 }
 
 // Component-major: every x, then every y, then every z.
@@ -61,13 +63,14 @@ Result<Header> readHeader(std::span<const std::byte> bytes, const GeometryLimits
   ByteReader in(bytes);
   const Header header{in.u32(), in.u32(), in.u32(), in.u32()};
   if (!in.ok()) return wrong(0, fmt::format("{} bytes", kPageHeaderBytes), fmt::format("{}", bytes.size()));
-  if ((header.flags & ~(kHasColours | kHasNormals)) != 0)
+  if ((header.flags & ~(kHasColours | kHasNormals | kHasShown)) != 0)
     return wrong(8, "flags 0 to 3", fmt::format("{}", header.flags));
   if (decodedBytes(header) > limits.maxDecodedBytes)
     return wrong(0, fmt::format("vertices and triangles of at most {} bytes", limits.maxDecodedBytes),
                  fmt::format("{}", decodedBytes(header)));
   // Each triangle is 1 to 13 bytes of payload, each word of a vertex 1 to 5.
-  const uint64_t vertexWords = wordsPerVertex(header) * header.vertexCount;
+  const uint64_t shown = (header.flags & kHasShown) != 0 ? header.triangleCount : 0;
+  const uint64_t vertexWords = wordsPerVertex(header) * header.vertexCount + shown;
   const uint64_t least = header.triangleCount + vertexWords;
   const uint64_t most = std::min(13 * uint64_t{header.triangleCount} + 5 * vertexWords, in.remaining() * kMaxZlibRatio);
   if (header.payloadBytes < least || header.payloadBytes > most)
@@ -93,6 +96,9 @@ Result<GeometryPage> decodePayload(std::span<const std::byte> payload, const Hea
   if ((header.flags & kHasNormals) != 0) {
     FARCELL_ASSIGN(page.normals, readSequences(in, header.vertexCount, 1, Lanes::two));
   }
+  if ((header.flags & kHasShown) != 0) {
+    FARCELL_ASSIGN(page.shown, readSequences(in, header.triangleCount, 1, Lanes::four));
+  }
   if (in.remaining() != 0)
     return fail(ErrorKind::corrupt, "expected a payload of {} bytes, found {}", in.position(), payload.size());
   return page;
@@ -103,6 +109,7 @@ void checkValid(const GeometryPage& page) {
   FARCELL_CHECK(page.positions.size() <= UINT32_MAX);
   FARCELL_CHECK(page.colours.empty() || page.colours.size() == page.positions.size());
   FARCELL_CHECK(page.normals.empty() || page.normals.size() == page.positions.size());
+  FARCELL_CHECK(page.shown.empty() || page.shown.size() == page.indices.size() / 3);
   for (const uint32_t index : page.indices) FARCELL_CHECK(index < page.positions.size());
 }
 
@@ -117,12 +124,14 @@ std::vector<std::byte> encodeGeometryPage(const GeometryPage& page) {
   writeSequences(payload, componentsOf(page.positions), 3, Lanes::one, codes.parallelograms);
   if (!page.colours.empty()) writeSequences(payload, page.colours, 1, Lanes::four);
   if (!page.normals.empty()) writeSequences(payload, page.normals, 1, Lanes::two);
+  if (!page.shown.empty()) writeSequences(payload, page.shown, 1, Lanes::four);
   FARCELL_CHECK(payload.bytes.size() <= UINT32_MAX);
 
   ByteWriter out;
   out.u32(static_cast<uint32_t>(page.positions.size()));
   out.u32(static_cast<uint32_t>(page.indices.size() / 3));
-  out.u32((page.colours.empty() ? 0 : kHasColours) | (page.normals.empty() ? 0 : kHasNormals));
+  out.u32((page.colours.empty() ? 0 : kHasColours) | (page.normals.empty() ? 0 : kHasNormals) |
+          (page.shown.empty() ? 0 : kHasShown));
   out.u32(static_cast<uint32_t>(payload.bytes.size()));
   out.append(zlibCompress(payload.bytes, kGeometryZlibLevel));
   return std::move(out.bytes);
@@ -150,8 +159,8 @@ Result<GeometryPage> decodeGeometryPage(std::span<const std::byte> bytes, const 
 }
 
 uint32_t decodedSizeBytes(const GeometryPage& page) {
-  const uint64_t words =
-      3 * uint64_t{page.positions.size()} + page.colours.size() + page.normals.size() + page.indices.size();
+  const uint64_t words = 3 * uint64_t{page.positions.size()} + page.colours.size() + page.normals.size() +
+                         page.indices.size() + page.shown.size();
   FARCELL_CHECK(4 * words <= UINT32_MAX);
   return static_cast<uint32_t>(4 * words);
 }

@@ -19,6 +19,9 @@ struct GeometryPage {
   std::vector<uint32_t> colours;  // 0x00BBGGRR per vertex; empty: the model has none
   std::vector<uint32_t> normals;  // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
   std::vector<uint32_t> indices;  // three a triangle
+  // What each triangle shows, lit, 0x00BBGGRR: the mean of what a simplified mesh's triangle stands for. Empty: the
+  // triangles show their vertices' colours under the light.
+  std::vector<uint32_t> shown{};
   bool operator==(const GeometryPage&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cache/base/interrupt.h"
+#include "preprocess/bake/settle.h"
 #include "preprocess/build/bake_job.h"
 #include "preprocess/build/soup.h"
 #include "preprocess/encode/view_image.h"
@@ -27,6 +28,7 @@ Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell) {
     FARCELL_ASSIGN(const CodedPart coded, context.store.part(cell, part));
     FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(coded.bytes, {side, coded.decodedBytes}));
     const auto& [red, green, blue] = kDefaultAlbedo;
+    const uint32_t lit = bake::packedOctahedral(sunDirection(context.model.settings.up));
     const uint32_t plain = red | uint32_t{green} << 8 | uint32_t{blue} << 16;
     for (size_t i = 0; i < page.indices.size(); ++i) {
       const uint32_t vertex = page.indices[i];
@@ -34,8 +36,13 @@ Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell) {
       soup.x[i % 3].push_back(static_cast<float>(local.x));
       soup.y[i % 3].push_back(static_cast<float>(local.y));
       soup.z[i % 3].push_back(static_cast<float>(local.z));
-      soup.colours[i % 3].push_back(page.colours.empty() ? plain : page.colours[vertex]);
-      if (!page.normals.empty()) soup.normals[i % 3].push_back(page.normals[vertex]);
+      soup.colours[i % 3].push_back(!page.shown.empty()    ? page.shown[i / 3]
+                                    : page.colours.empty() ? plain
+                                                           : page.colours[vertex]);
+      if (!page.shown.empty())
+        soup.normals[i % 3].push_back(lit);  // fully lit
+      else if (!page.normals.empty())
+        soup.normals[i % 3].push_back(page.normals[vertex]);
     }
   }
   return soup;

@@ -81,6 +81,7 @@ Result<LodMesh> storedMesh(const BuildContext& context, uint32_t cell) {
     for (const uint32_t index : page.indices) mesh.indices.push_back(first + index);
     mesh.colours.insert(mesh.colours.end(), page.colours.begin(), page.colours.end());
     mesh.normals.insert(mesh.normals.end(), page.normals.begin(), page.normals.end());
+    mesh.shown.insert(mesh.shown.end(), page.shown.begin(), page.shown.end());
   }
   return mesh;
 }
@@ -99,6 +100,9 @@ GeometryPage pageOf(const LodMesh& mesh, size_t first, size_t count, GridPoint c
     }
     page.indices.push_back(numbers[vertex]);
   }
+  if (!mesh.shown.empty())
+    page.shown.assign(mesh.shown.begin() + static_cast<ptrdiff_t>(first),
+                      mesh.shown.begin() + static_cast<ptrdiff_t>(first + count));
   return page;
 }
 
@@ -157,7 +161,8 @@ Result<> simplifyInner(const BuildContext& context, uint32_t cell) {
     meshes.push_back(std::move(mesh));
   }
   // A surface four times as large, twice as coarse: as many triangles as a leaf has on average.
-  const LodSettings settings{std::max<uint64_t>(1, leafTriangles / 2), context.model.settings.simplifier};
+  const LodSettings settings{std::max<uint64_t>(1, leafTriangles / 2), context.model.settings.simplifier,
+                             sunDirection(context.model.settings.up)};
   FARCELL_ASSIGN(const SimplifiedCell simplified,
                  simplifyCell(context.model.grid, record.key, meshes, children.errorSteps, settings));
   meshes.clear();

@@ -15,6 +15,7 @@ struct LodMesh {
   std::vector<uint32_t> colours;     // one a position, 0x00BBGGRR; empty when the model has none
   std::vector<uint32_t> normals;     // one a position, octahedral as in GeometryPage; empty when the model has none
   std::vector<uint32_t> indices;     // three a triangle
+  std::vector<uint32_t> shown{};     // one a triangle, as in GeometryPage; empty: what its corners say
 
   size_t triangles() const { return indices.size() / 3; }
   bool operator==(const LodMesh&) const = default;

@@ -116,6 +116,7 @@ class SlitCloser {
       const HalfEdge& link = open_[chain[i]];
       mesh_.triangles.push_back({whole.from, link.to, link.from});
       mesh_.corners.push_back({whole.fromVertex, link.toVertex, link.fromVertex});
+      mesh_.shown.push_back(kAsCorners);
     }
   }
 

@@ -10,6 +10,7 @@
 #include "preprocess/lod/output.h"
 #include "preprocess/lod/reduction.h"
 #include "preprocess/lod/seams.h"
+#include "preprocess/lod/shown.h"
 #include "preprocess/lod/welded_mesh.h"
 
 namespace farcell {
@@ -68,6 +69,7 @@ Result<SimplifiedCell> simplifyCell(const Grid& grid, const CellKey& cell, std::
   const lod::Surface full{mesh.places, mesh.triangles}, reduced{reduction.places, reduction.triangles};
   SimplifiedCell result{
       lod::outputMesh(mesh, reduction), childrenErrorSteps + errorSteps(full, reduced, reduction), {}};
+  if (settings.sun && mesh.normals.empty()) result.mesh.shown = lod::shownColours(mesh, reduction, *settings.sun);
   result.figures.childTriangles = mesh.triangles.size();
   result.figures.lockedTriangles = locked;
   result.figures.parts = reduction.parts;

@@ -12,6 +12,8 @@
 // it.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 
 #include "cache/base/result.h"
@@ -23,6 +25,9 @@ namespace farcell {
 struct LodSettings {
   uint64_t targetTriangles = 16384;  // exceeded by what is locked beyond half of it
   Simplifier simplifier = Simplifier::collapse;
+  // Unit, world axes: triangles of flat faces show the mean of what they stand for in this light. Without: the colours
+  // of their corners, in any.
+  std::optional<glm::vec3> sun{};
 };
 
 struct LodFigures {

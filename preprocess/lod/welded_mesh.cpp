@@ -70,6 +70,9 @@ Result<> checkChild(const GridBox& box, const LodMesh& child, const LodMesh& fir
   };
   FARCELL_TRY(attribute("colours", child.colours.size(), first.colours.size()));
   FARCELL_TRY(attribute("normals", child.normals.size(), first.normals.size()));
+  if (!child.shown.empty() && child.shown.size() != child.triangles())
+    return fail(ErrorKind::invalidArgument, "child {}: expected a colour for each of {} triangles, found {}", number,
+                child.triangles(), child.shown.size());
   if (child.indices.size() % 3 != 0)
     return fail(ErrorKind::invalidArgument, "child {}: expected three indices a triangle, found {} in all", number,
                 child.indices.size());
@@ -140,6 +143,7 @@ Result<WeldedMesh> weld(const GridBox& box, std::span<const LodMesh> children) {
       if (placeOf[a] == placeOf[b] || placeOf[b] == placeOf[c] || placeOf[c] == placeOf[a]) continue;
       mesh.triangles.push_back({placeOf[a], placeOf[b], placeOf[c]});
       mesh.corners.push_back({vertexOf[a], vertexOf[b], vertexOf[c]});
+      mesh.shown.push_back(child.shown.empty() ? kAsCorners : child.shown[i / 3]);
     }
   }
   mesh.places = places.take();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "cache/schema/model.h"
 #include "shaders/shared/shading.h"
@@ -24,15 +25,18 @@ uint32_t packedOctahedral(glm::vec3 unit) {
 }
 
 // Gives each triangle a last corner that carries its normal.
-void assignFlatNormals(GpuMesh& mesh) {
+void assignFlatNormals(GpuMesh& mesh, std::span<const uint32_t> shown) {
   std::vector<bool> owned(mesh.vertices.size(), false);
   for (size_t first = 0; first < mesh.indices.size(); first += 3) {
     const std::array<uint32_t, 3> corners = {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
     const uint32_t normal = packedOctahedral(faceNormal(
         mesh.vertices[corners[0]].position, mesh.vertices[corners[1]].position, mesh.vertices[corners[2]].position));
+    const auto same = [&](const GpuVertex& vertex) {
+      return shown.empty() ? vertex.normal == normal : vertex.colour == shown[first / 3];
+    };
     size_t chosen = 3;
     for (size_t i = 0; i < 3 && chosen == 3; ++i)
-      if (!owned[corners[i]] || mesh.vertices[corners[i]].normal == normal) chosen = i;
+      if (!owned[corners[i]] || same(mesh.vertices[corners[i]])) chosen = i;
     const size_t last = chosen == 3 ? 2 : chosen;
     mesh.indices[first] = corners[(last + 1) % 3];
     mesh.indices[first + 1] = corners[(last + 2) % 3];
@@ -44,6 +48,7 @@ void assignFlatNormals(GpuMesh& mesh) {
     }
     owned[mesh.indices[first + 2]] = true;
     mesh.vertices[mesh.indices[first + 2]].normal = normal;
+    if (!shown.empty()) mesh.vertices[mesh.indices[first + 2]].colour = shown[first / 3];
   }
 }
 
@@ -70,7 +75,7 @@ GpuMesh makeGpuMesh(const GeometryPage& page, GridPoint origin) {
     if (!page.normals.empty()) vertex.normal = page.normals[i];
   }
   mesh.indices = page.indices;
-  if (page.normals.empty()) assignFlatNormals(mesh);
+  if (page.normals.empty()) assignFlatNormals(mesh, page.shown);
   return mesh;
 }
 

@@ -9,6 +9,7 @@ in vec3 albedo;
 in vec3 surfaceNormal;
 #else
 flat in float light;
+flat in vec4 shown;
 flat in vec3 faceNormal;
 #endif
 #ifdef SHOW_TINT
@@ -30,7 +31,7 @@ void main() {
   colour = vec4(shade(albedo, unit, frame.sun.xyz), 1.0);
 #else
   vec3 unit = faceNormal;
-  colour = vec4(albedo * light, 1.0);
+  colour = vec4(mix(albedo * light, shown.rgb, shown.a), 1.0);
 #endif
 #if defined(SHOW_TINT)
   colour = tinted(colour, tint);

@@ -25,6 +25,7 @@ out vec3 albedo;
 out vec3 surfaceNormal;
 #else
 flat out float light;
+flat out vec4 shown;  // in full for a triangle that says what it shows
 flat out vec3 faceNormal;
 #endif
 
@@ -38,6 +39,7 @@ void main() {
   surfaceNormal = unit;
 #else
   light = lightFactor(unit, frame.sun.xyz);
+  shown = vec4(colour.rgb, 1.0 - colour.a);
   faceNormal = unit;
 #endif
 #if defined(SHOW_TINT) || defined(SHARES)

@@ -59,6 +59,7 @@ class PlainDecoder {
       result.positions.emplace_back(components[i], components[vertices + i], components[2 * vertices + i]);
     if (flags & 1) result.colours = sequences(1, vertices, 8);
     if (flags & 2) result.normals = sequences(1, vertices, 16);
+    if (flags & 8) result.shown = sequences(1, triangles, 8);
     EXPECT_EQ(at_, payload_.size());
     return result;
   }
@@ -142,8 +143,8 @@ TEST(GeometryPageCoding, ReturnsEveryRandomPageExactly) {
   for (uint32_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const GeometryPage page =
-        randomGeometry(random, 3 + seed * seed % 700, seed * 5 % 900, kMaxCoordinate, seed % 2, seed % 3 == 0);
+    const GeometryPage page = randomGeometry(random, 3 + seed * seed % 700, seed * 5 % 900, kMaxCoordinate, seed % 2,
+                                             seed % 3 == 0, seed % 5 < 2);
     const Bytes bytes = encodeGeometryPage(page);
     const auto decoded = decode(bytes, page);
     ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
@@ -156,7 +157,7 @@ TEST(GeometryPageCoding, IsWhatFormatMdSaysToADecoderOfItsOwn) {
   for (uint32_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const GeometryPage page = randomGeometry(random, 300, 400, kMaxCoordinate, seed % 2, seed % 4 < 2);
+    const GeometryPage page = randomGeometry(random, 300, 400, kMaxCoordinate, seed % 2, seed % 4 < 2, seed % 8 < 4);
     EXPECT_EQ(PlainDecoder(encodeGeometryPage(page)).decode(), page);
     const GeometryPage ordered = optimisedOrder(page);
     EXPECT_EQ(PlainDecoder(encodeGeometryPage(ordered)).decode(), ordered);
@@ -283,7 +284,7 @@ TEST(GeometryPageCoding, SurvivesDamagedPayloads) {
 }
 
 // A corner with all that belongs to it.
-using Corner = std::array<uint32_t, 5>;
+using Corner = std::array<uint32_t, 6>;
 
 // Triangles by value, each starting at its least corner, sorted: equal for equal sets with equal winding.
 std::vector<std::array<Corner, 3>> triangleSet(const GeometryPage& page) {
@@ -293,8 +294,12 @@ std::vector<std::array<Corner, 3>> triangleSet(const GeometryPage& page) {
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t index = page.indices[i + k];
       const glm::uvec3& p = page.positions[index];
-      triangle[k] = {p.x, p.y, p.z, page.colours.empty() ? 0 : page.colours[index],
-                     page.normals.empty() ? 0 : page.normals[index]};
+      triangle[k] = {p.x,
+                     p.y,
+                     p.z,
+                     page.colours.empty() ? 0 : page.colours[index],
+                     page.normals.empty() ? 0 : page.normals[index],
+                     page.shown.empty() ? 0 : page.shown[i / 3]};
     }
     std::array<std::array<Corner, 3>, 3> rotations = {triangle, triangle, triangle};
     for (size_t k = 0; k < 3; ++k)
@@ -310,7 +315,7 @@ TEST(OptimisedOrder, KeepsEveryTriangleAndItsWindingAndDropsUnusedVertices) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     const GeometryPage page =
-        randomGeometry(random, 3 + seed * 7, 1 + seed * 11, kMaxCoordinate, seed % 2, seed % 3 == 1);
+        randomGeometry(random, 3 + seed * 7, 1 + seed * 11, kMaxCoordinate, seed % 2, seed % 3 == 1, seed % 4 < 2);
     const GeometryPage ordered = optimisedOrder(page);
     EXPECT_EQ(triangleSet(ordered), triangleSet(page));
     std::vector<bool> used(ordered.positions.size());

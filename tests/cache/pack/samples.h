@@ -24,7 +24,7 @@ inline uint32_t below(std::mt19937& random, uint32_t bound) { return static_cast
 
 // Neighbouring triangles, repeated coordinates and noise in one: what every branch of the coder meets.
 inline GeometryPage randomGeometry(std::mt19937& random, uint32_t vertices, uint32_t triangles, uint32_t maxCoordinate,
-                                   bool colours, bool normals) {
+                                   bool colours, bool normals, bool shown = false) {
   GeometryPage page;
   for (uint32_t i = 0; i < vertices; ++i) {
     glm::uvec3 position;
@@ -41,6 +41,7 @@ inline GeometryPage randomGeometry(std::mt19937& random, uint32_t vertices, uint
     const uint32_t a = shares ? page.indices[size - 1] : below(random, vertices);
     const uint32_t b = shares ? page.indices[size - 2] : below(random, vertices);
     page.indices.insert(page.indices.end(), {a, b, below(random, vertices)});
+    if (shown) page.shown.push_back(random() % 3 == 0 ? 0x00808080u : static_cast<uint32_t>(random()) & 0xffffff);
   }
   return page;
 }

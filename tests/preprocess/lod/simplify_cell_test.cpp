@@ -131,6 +131,79 @@ TEST(SimplifyCell, AColourKeepsItsSide) {
   EXPECT_GT(red, 0);
 }
 
+double areaOf(const LodMesh& mesh, size_t t) {
+  const glm::dvec3 a(mesh.positions[mesh.indices[3 * t]]), b(mesh.positions[mesh.indices[3 * t + 1]]),
+      c(mesh.positions[mesh.indices[3 * t + 2]]);
+  return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
+// Lit by hand: ambient light of a quarter and three quarters of |n.l|.
+double litGrey(const LodMesh& mesh, size_t t, glm::dvec3 sun) {
+  const glm::dvec3 a(mesh.positions[mesh.indices[3 * t]]), b(mesh.positions[mesh.indices[3 * t + 1]]),
+      c(mesh.positions[mesh.indices[3 * t + 2]]);
+  const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+  return 200 * (0.25 + 0.75 * std::abs(glm::dot(normal, sun)));
+}
+
+// A sheet of grey 200 with ripples much smaller than its triangles will be.
+LodMesh rippled(uint32_t seed) {
+  LodMesh mesh = sheet(60, 0xc8c8c8);
+  test::Random random(seed);
+  for (GridPoint& p : mesh.positions) p.z += static_cast<int32_t>(random.uniform(-40, 40));
+  return mesh;
+}
+
+TEST(SimplifyCell, ATriangleShowsTheMeanOfWhatItStandsFor) {
+  const uint32_t seed = 5;
+  SCOPED_TRACE(seed);
+  const glm::vec3 sun = glm::normalize(glm::vec3(0.8f, 0.2f, 0.6f));
+  const std::vector<LodMesh> children = {rippled(seed)};
+  const LodMesh mesh = simplifyCell(kGrid, kCell, children, 0, {.targetTriangles = 400, .sun = sun}).value().mesh;
+  ASSERT_EQ(mesh.shown.size(), mesh.triangles());
+  double full = 0, fullArea = 0, shown = 0, area = 0, byNormals = 0;
+  for (size_t t = 0; t < children[0].triangles(); ++t) {
+    full += areaOf(children[0], t) * litGrey(children[0], t, glm::dvec3(sun));
+    fullArea += areaOf(children[0], t);
+  }
+  for (size_t t = 0; t < mesh.triangles(); ++t) {
+    EXPECT_EQ(mesh.shown[t] & 0xff, mesh.shown[t] >> 8 & 0xff);
+    EXPECT_EQ(mesh.shown[t] & 0xff, mesh.shown[t] >> 16);
+    shown += areaOf(mesh, t) * (mesh.shown[t] & 0xff);
+    byNormals += areaOf(mesh, t) * litGrey(mesh, t, glm::dvec3(sun));
+    area += areaOf(mesh, t);
+  }
+  EXPECT_NEAR(shown / area, full / fullArea, 0.5);
+  EXPECT_GT(std::abs(byNormals / area - full / fullArea), 2);  // what the triangles' own normals would show
+}
+
+TEST(SimplifyCell, WhatATriangleShowsComesFromItsSideOfASeam) {
+  const glm::vec3 sun(0, 0, 1);
+  LodMesh left = sheet(10, 0x0000ff), right = sheet(10, 0xff0000);
+  for (GridPoint& p : right.positions) p.x += 1000;
+  const std::vector<LodMesh> children = {left, right};
+  const SimplifiedCell first = simplifyCell(kGrid, kCell, children, 0, {.targetTriangles = 20, .sun = sun}).value();
+  // What was shown already is what counts above.
+  const SimplifiedCell above =
+      simplifyCell(kGrid, kCell, std::span(&first.mesh, 1), 0, {.targetTriangles = 4, .sun = sun}).value();
+  const int32_t seam = inCell(2000, 0, 0).x;
+  for (const LodMesh* mesh : {&first.mesh, &above.mesh})
+    for (size_t t = 0; t < mesh->triangles(); ++t) {
+      int32_t least = INT32_MAX;
+      for (size_t k = 0; k < 3; ++k) least = std::min(least, mesh->positions[mesh->indices[3 * t + k]].x);
+      EXPECT_EQ(mesh->shown[t], least < seam ? 0x0000ffu : 0xff0000u);
+    }
+}
+
+TEST(SimplifyCell, WithoutLightOrWithNormalsNothingIsSaidToBeShown) {
+  EXPECT_TRUE(simplify({sheet(10)}, 20).value().mesh.shown.empty());
+  LodMesh smooth = sheet(10);
+  smooth.normals.assign(smooth.positions.size(), 1);
+  const std::vector<LodMesh> children = {smooth};
+  EXPECT_TRUE(simplifyCell(kGrid, kCell, children, 0, {.targetTriangles = 20, .sun = glm::vec3(0, 0, 1)})
+                  .value()
+                  .mesh.shown.empty());
+}
+
 TEST(SimplifyCell, NormalsOfASharpEdgeStayOnTheirSides) {
   LodMesh floor = sheet(10), wall = sheet(10);
   floor.normals.assign(floor.positions.size(), 1);

@@ -66,6 +66,26 @@ TEST(GpuMesh, everyFlatTriangleKeepsItsCornersAndColoursAndEndsInItsNormal) {
   }
 }
 
+TEST(GpuMesh, aTriangleThatSaysWhatItShowsEndsInIt) {
+  const unsigned seed = 10;
+  SCOPED_TRACE(fmt::format("seed {}", seed));
+  GeometryPage page = sharedSoup(seed, 40, 300);
+  std::mt19937 random(seed);
+  for (size_t t = 0; t < 300; ++t) page.shown.push_back(static_cast<uint32_t>(random()) & 0xffffff);
+  const GpuMesh mesh = makeGpuMesh(page, GridPoint(0));
+  ASSERT_EQ(mesh.indices.size(), page.indices.size());
+  for (size_t t = 0; t < 300; ++t) {
+    std::array<GridPoint, 3> expected, found;
+    for (size_t k = 0; k < 3; ++k) {
+      expected[k] = GridPoint(page.positions[page.indices[3 * t + k]]);
+      found[k] = mesh.vertices[mesh.indices[3 * t + k]].position;
+    }
+    ASSERT_EQ(sortedCorners(expected), sortedCorners(found));
+    // Without the opaque bits: that is how the shader knows it.
+    ASSERT_EQ(mesh.vertices[mesh.indices[3 * t + 2]].colour, page.shown[t]);
+  }
+}
+
 TEST(GpuMesh, aStripOfFlatTrianglesNeedsNoCopies) {
   GeometryPage page;
   for (uint32_t i = 0; i < 12; ++i) page.positions.push_back({i, i % 2 * 10, i * i});
