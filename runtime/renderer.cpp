@@ -149,7 +149,7 @@ Result<> Renderer::Impl::checkSettings(const RenderSettings& settings) const {
   if (settings.samplesPerPixel != 1 && settings.samplesPerPixel != 4 && settings.samplesPerPixel != 16)
     return fail(ErrorKind::invalidArgument, "samples per pixel: expected 1, 4 or 16, found {}",
                 settings.samplesPerPixel);
-  return {};
+  return checkLight(settings.light, pack.directory().model.settings, pack.path());
 }
 
 const FrameTarget& Renderer::Impl::targetFor(int width, int height, int samples, bool withCoverage) {
@@ -166,8 +166,8 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
-  const FrameCamera frameCamera =
-      makeFrameCamera(pack.directory(), camera, {settings.width, settings.height, jitterPx, samples}, cut);
+  const FrameCamera frameCamera = makeFrameCamera(
+      pack.directory(), camera, {settings.width, settings.height, jitterPx, samples, settings.light}, cut);
   ShowPlan plan =
       planShow(settings.show, pack.directory(), cut, frameCamera, settings.kind, settings.selection.texelPixels);
   FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, plan, counts));

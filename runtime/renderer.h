@@ -6,7 +6,7 @@
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
-#include "runtime/camera/camera.h"
+#include "runtime/camera/light.h"
 #include "runtime/cost/draw_costs.h"
 #include "runtime/draw/backdrop.h"
 #include "runtime/draw/impostor_kind.h"
@@ -27,6 +27,7 @@ struct RenderSettings {
   bool occlusion = false;        // cells that nearer triangles hide are not drawn; mode `full` draws them all the same
   bool occlusionMustPay = true;  // only where that is expected to save more time than the search takes
   Show show = Show::picture;
+  Light light;  // of a pack of baked light: its own sun
   bool handOver =
       true;  // of pictures of 4 samples or more: cells change how they are drawn without a pop (hand_over.h)
   bool operator==(const RenderSettings&) const = default;
@@ -68,7 +69,7 @@ class Renderer {
   ~Renderer();
 
   // Draws and waits until the GPU is done. `image` may be null: then nothing is read back (timing).
-  // invalidArgument: a size or number of samples that cannot be; else what reading pages failed with.
+  // invalidArgument: a size, number of samples or light that cannot be; else what reading pages failed with.
   Result<FrameStats> draw(const Camera& camera, const RenderSettings& settings, FrameImage* image);
 
   // Draws over the backdrop into a framebuffer (of this OpenGL name; 0: the window's), whose size is that of

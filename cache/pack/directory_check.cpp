@@ -94,6 +94,11 @@ class Checker {
     if (s.up > UpAxis::z) return wrongModel("an up axis of 0 to 2", fmt::format("{}", static_cast<uint32_t>(s.up)));
     if (!std::isfinite(s.metresPerUnit) || !(s.metresPerUnit > 0))
       return wrongModel("a unit above 0 metres", fmt::format("{}", s.metresPerUnit));
+    if (s.lighting > Lighting::relightable)
+      return wrongModel("a lighting of 0 or 1", fmt::format("{}", static_cast<int>(s.lighting)));
+    if (!isSun(s.sun))
+      return wrongModel("a sun within a turn and a quarter of one",
+                        fmt::format("{}, {}", s.sun.azimuthRad, s.sun.elevationRad));
     if (s.measure > Measure::all)
       return wrongModel("measuring of 0 to 2", fmt::format("{}", static_cast<int>(s.measure)));
     if (s.simplifier > Simplifier::openmesh || s.budgetRule > BudgetRule::triangles)

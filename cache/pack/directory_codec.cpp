@@ -29,7 +29,7 @@ void write(ByteWriter& out, const BuildSettings& settings) {
                           settings.maxLevel, settings.fixedLevel})
     out.i32(value);
   out.u32(static_cast<uint32_t>(settings.up));
-  out.u8(settings.bakeNormals ? 1 : 0);
+  out.u8(static_cast<uint8_t>(settings.lighting));
   out.u8(static_cast<uint8_t>(settings.measure));
   out.u16(static_cast<uint16_t>(settings.viewError));
   out.f64(settings.metresPerUnit);
@@ -37,22 +37,17 @@ void write(ByteWriter& out, const BuildSettings& settings) {
   out.u32(static_cast<uint32_t>(settings.budgetRule));
   out.u64(settings.packBudgetBytes);
   out.u64(settings.visitableHash);
+  out.f64(settings.sun.azimuthRad);
+  out.f64(settings.sun.elevationRad);
 }
 
-// Both 0 and 1 are the only values a flag may have: anything else could not be written back.
-bool readFlag(ByteReader& in, bool& valid) {
-  const uint8_t value = in.u8();
-  valid = valid && value <= 1;
-  return value == 1;
-}
-
-BuildSettings readSettings(ByteReader& in, bool& valid) {
+BuildSettings readSettings(ByteReader& in) {
   BuildSettings settings;
   for (int* value : {&settings.views, &settings.imageSize, &settings.samples, &settings.leafTriangles,
                      &settings.maxLevel, &settings.fixedLevel})
     *value = in.i32();
   settings.up = static_cast<UpAxis>(in.u32());
-  settings.bakeNormals = readFlag(in, valid);
+  settings.lighting = static_cast<Lighting>(in.u8());
   settings.measure = static_cast<Measure>(in.u8());
   settings.viewError = in.u16();
   settings.metresPerUnit = in.f64();
@@ -60,6 +55,8 @@ BuildSettings readSettings(ByteReader& in, bool& valid) {
   settings.budgetRule = static_cast<BudgetRule>(in.u32());
   settings.packBudgetBytes = in.u64();
   settings.visitableHash = in.u64();
+  settings.sun.azimuthRad = in.f64();
+  settings.sun.elevationRad = in.f64();
   return settings;
 }
 
@@ -82,7 +79,7 @@ Model readModel(ByteReader& in, bool& valid) {
   model.hasNormals = (flags & kHasNormals) != 0;
   model.hasColours = (flags & kHasColours) != 0;
   model.bounds = readBox(in);
-  model.settings = readSettings(in, valid);
+  model.settings = readSettings(in);
   return model;
 }
 

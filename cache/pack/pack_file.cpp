@@ -74,9 +74,9 @@ Result<> checkViews(const ViewPage& page, const PageRecord& record, const Model&
     if (group != record.group)
       return fail(ErrorKind::corrupt, "expected views of group {}, found view {} of group {}", record.group, view.view,
                   group);
-    if (view.width > 0 && view.normal.empty() == model.settings.bakeNormals)
-      return fail(ErrorKind::corrupt, "expected views with normals: {}, found {}", model.settings.bakeNormals,
-                  !view.normal.empty());
+    const bool relightable = model.settings.lighting == Lighting::relightable;
+    if (view.width > 0 && view.normal.empty() == relightable)
+      return fail(ErrorKind::corrupt, "expected views with normals: {}, found {}", relightable, !view.normal.empty());
   }
   return {};
 }

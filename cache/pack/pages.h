@@ -32,9 +32,10 @@ struct ViewImage {
   uint32_t width = 0, height = 0;  // texels; 0 x 0: nothing is seen from here
   float depthMin = 0;              // w of depth value 1, in half sides of the cell (view_frame.h)
   float depthMax = 0;              // w of depth value 255
-  std::vector<uint8_t> rgba;       // 4 * width * height, premultiplied by coverage; alpha is coverage
+  std::vector<uint8_t> rgba;       // 4 * width * height, premultiplied by coverage, which is alpha: lit, or albedo
   std::vector<uint8_t> depth;      // width * height; 0: unknown; else depthMin + (d - 1) / 254 * (depthMax - depthMin)
-  std::vector<uint8_t> normal;     // 2 * width * height, octahedral unorm8 pairs; empty when not baked
+  // 3 * width * height, of the mean vector of the normals: octahedral, unorm8 each, and its length. Empty when lit.
+  std::vector<uint8_t> normal;
   bool operator==(const ViewImage&) const = default;
 };
 

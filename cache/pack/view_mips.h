@@ -17,7 +17,8 @@ std::vector<std::vector<uint8_t>> buildColourMips(const ViewImage& view, int ima
 
 // imageSize^2 depth values, 0 outside the crop.
 std::vector<uint8_t> buildDepthImage(const ViewImage& view, int imageSize);
-// imageSize^2 octahedral pairs, 0 outside the crop. REQUIRES: the view has normals.
-std::vector<uint8_t> buildNormalImage(const ViewImage& view, int imageSize);
+// The mean vectors of the normals, premultiplied by coverage as colours are, with mips alike: x, y, z as snorm8 and 0.
+// REQUIRES: the view has normals.
+std::vector<std::vector<int8_t>> buildNormalMips(const ViewImage& view, int imageSize);
 
 }  // namespace farcell

@@ -115,7 +115,7 @@ Result<std::vector<ViewHeader>> readHeaders(std::span<const std::byte> bytes, co
     return wrong(0, fmt::format("at most {} views and their headers", limits.viewCount),
                  fmt::format("{} in a page of {} bytes", viewCount, bytes.size()));
   if (planeCount != kPlanesWithoutNormals && planeCount != kPlanesWithNormals)
-    return wrong(4, "5 or 7 planes", fmt::format("{}", planeCount));
+    return wrong(4, "5 or 8 planes", fmt::format("{}", planeCount));
   std::vector<ViewHeader> headers;
   uint64_t streamsEnd = kPageHeaderBytes + viewCount * kViewHeaderBytes;
   // Shared streams must not make more of a page than one stream of its size could.

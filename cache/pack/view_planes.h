@@ -16,14 +16,14 @@
 
 namespace farcell {
 
-// Planes in the order they are stored: A, G, R, B, depth, and with normals x, y.
+// Planes in the order they are stored: A, G, R, B, depth, and with normals x, y, length.
 inline constexpr uint32_t kPlanesWithoutNormals = 5;
-inline constexpr uint32_t kPlanesWithNormals = 7;
+inline constexpr uint32_t kPlanesWithNormals = 8;
 
 // plain: every texel of every plane. sparse: without the texels that coverage says are 0, and planes may be constant.
 enum class Arrangement : uint8_t { plain = 0, sparse = 1 };
 
-// How a view's bytes were made, as stored: 4 bits a plane name its filter, the first plane lowest, and the top 4 bits
+// How a view's bytes were made, as stored: 3 bits a plane name its filter, the first plane lowest, and the top 4 bits
 // the arrangement.
 using ViewCoding = uint32_t;
 bool codingValid(ViewCoding coding, uint32_t planeCount);
@@ -41,8 +41,8 @@ using ColourFactors = std::array<uint8_t, 2>;
 ColourFactors factorsOfArranged(std::span<const std::byte> bytes);
 
 struct ArrangeOptions {
-  int maxError = 0;           // see below
-  bool triesFilters = false;  // chooses each filter by what deflate makes of it, not by an estimate
+  int maxError = 0;                      // see below
+  bool triesFilters = false;             // chooses each filter by what deflate makes of it, not by an estimate
   std::optional<ColourFactors> factors;  // none: those of least squares
 };
 

@@ -1,6 +1,10 @@
 #include "cache/schema/model.h"
 
-#include <glm/geometric.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numbers>
 
 namespace farcell {
 namespace {
@@ -33,13 +37,21 @@ glm::dvec3 upVector(UpAxis up) {
   return result;
 }
 
-glm::vec3 sunDirection(UpAxis up) {
-  glm::dvec3 sun;
+bool isSun(const Sun& sun) {
+  return std::abs(sun.azimuthRad) <= 2 * std::numbers::pi && std::abs(sun.elevationRad) <= std::numbers::pi / 2;
+}
+
+std::string sunText(const Sun& sun) {
+  return fmt::format("{:.6g},{:.6g}", glm::degrees(sun.azimuthRad), glm::degrees(sun.elevationRad));
+}
+
+glm::vec3 sunDirection(UpAxis up, const Sun& sun) {
+  glm::dvec3 direction;
   const int axis = static_cast<int>(up);
-  sun[axis] = 0.7;
-  sun[(axis + 1) % 3] = 0.6;
-  sun[(axis + 2) % 3] = 0.5;
-  return glm::vec3(glm::normalize(sun));
+  direction[axis] = std::sin(sun.elevationRad);
+  direction[(axis + 1) % 3] = std::cos(sun.elevationRad) * std::cos(sun.azimuthRad);
+  direction[(axis + 2) % 3] = std::cos(sun.elevationRad) * std::sin(sun.azimuthRad);
+  return glm::vec3(direction);
 }
 
 }  // namespace farcell

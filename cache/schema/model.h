@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "cache/schema/grid.h"
@@ -34,6 +35,20 @@ enum class Measure : uint8_t {
 
 inline constexpr int kMaxViewError = 8;
 
+// What views hold.
+enum class Lighting : uint8_t {
+  baked = 0,        // lit colour: of one sun, in the fewest bytes
+  relightable = 1,  // albedo and mean normal: lit when drawn
+};
+
+// Where the sun stands. Azimuth: from the axis after the up axis (x, where z is up) towards the one after that;
+// elevation: above the horizon.
+struct Sun {
+  double azimuthRad = 0.6947382761967031;    // tan: 5 / 6
+  double elevationRad = 0.7307439359886967;  // tan: 7 / sqrt(61)
+  bool operator==(const Sun&) const = default;
+};
+
 // Everything that decides a pack's content, besides the input itself.
 struct BuildSettings {
   int views = 42;             // size of the viewpoint set, see viewpoints.h
@@ -45,7 +60,8 @@ struct BuildSettings {
   UpAxis up = UpAxis::z;
   double metresPerUnit = 1;
   Measure measure = Measure::sample;
-  bool bakeNormals = false;  // views keep a prefiltered normal beside the lit colour
+  Lighting lighting = Lighting::baked;
+  Sun sun;            // that baked views are lit by, and a pack where nothing else is asked for
   int viewError = 0;  // a view's channels are this near to what was baked, in 255ths: 0 (lossless)..kMaxViewError
   Simplifier simplifier = Simplifier::collapse;
   BudgetRule budgetRule = BudgetRule::worth;
@@ -66,8 +82,12 @@ struct Model {
 // Colour of a model that brings none.
 inline constexpr std::array<uint8_t, 3> kDefaultAlbedo = {204, 200, 192};
 
-// Direction to the sun, unit, world axes: high, from the side, the same for every picture and bake of a model.
-glm::vec3 sunDirection(UpAxis up);
+// Whether both angles are numbers, azimuth within a turn either way and elevation within a quarter of one.
+bool isSun(const Sun& sun);
+// Direction to the sun, unit, world axes.
+glm::vec3 sunDirection(UpAxis up, const Sun& sun = {});
+// Azimuth and elevation in degrees: "39.8056,41.8685".
+std::string sunText(const Sun& sun);
 // As people write them: "x", "y" or "z"; a length of mm, cm, m, km, in or ft. Nothing for other words.
 std::optional<UpAxis> upAxisNamed(std::string_view name);
 std::optional<double> metresOfUnit(std::string_view name);

@@ -28,7 +28,7 @@ ColourPlane colourPlane(const Winners& winners, uint32_t triangle) {
     x[k] = imagePosition(p[k], winners.projection.right, winners.projection);
     y[k] = imagePosition(p[k], winners.projection.up, winners.projection);
   }
-  const double scale = sunOnFace(p, winners.sun) * (kColourOne / 255.0);
+  const double scale = (winners.sun ? sunOnFace(p, *winners.sun) : 1.0f) * (kColourOne / 255.0);
   const double x1 = x[1] - x[0], x2 = x[2] - x[0], y1 = y[1] - y[0], y2 = y[2] - y[0];
   const double area = x1 * y2 - x2 * y1;
   ColourPlane plane{};

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace farcell::bake::HWY_NAMESPACE {
 
 struct Surface {
-  VF colour[3];  // lit; kColourOne is 1
+  VF colour[3];  // lit, or albedo; kColourOne is 1
   VF normal[3];  // not normalised; either side
   VF face[3];    // of the flat triangle, not normalised
 };
@@ -108,7 +108,8 @@ HWY_INLINE Surface surfaceAt(const Winners& winners, const uint32_t* triangles, 
   VF albedo[3];
   albedoAt(lanes, weights, albedo);
   if (!winners.chunk.textures.empty()) multiplyByTextures(lanes, weights, *winners.textures, albedo);
-  const VF scale = hn::Mul(lightOn(surface.normal, winners.sun), hn::Set(df, kColourOne / 255.0f));
+  VF scale = hn::Set(df, kColourOne / 255.0f);
+  if (winners.sun) scale = hn::Mul(lightOn(surface.normal, *winners.sun), scale);
   for (int channel = 0; channel < 3; ++channel) surface.colour[channel] = hn::Mul(albedo[channel], scale);
   return surface;
 }

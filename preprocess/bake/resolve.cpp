@@ -143,23 +143,14 @@ HWY_EXPORT(resolveTexels);
 
 namespace {
 
-// Normals of the samples that the mean depth counts, in integers like it.
-glm::vec3 meanNormal(const Side& side, size_t first) {
-  const auto depthOf = [&](size_t i) {
-    return floatFromOrdered(static_cast<uint32_t>(side.keys[i] >> 32)) * side.towardViewer();
-  };
-  const auto empty = [&](size_t i) { return static_cast<uint32_t>(side.keys[i] >> 32) == side.emptyDepth(); };
-  const size_t last = first + size_t(side.samples);
-  float nearest = -std::numeric_limits<float>::infinity();
-  for (size_t i = first; i < last; ++i)
-    if (!empty(i)) nearest = std::max(nearest, depthOf(i));
+// Of the samples that the colour is the mean of. In integers, so that their order makes no difference.
+glm::vec3 meanNormal(const Side& side, size_t first, uint32_t covered) {
+  constexpr float kParts = 1 << 20;
   glm::ivec3 sum(0);
-  for (size_t i = first; i < last; ++i)
-    if (!empty(i) && nearest - depthOf(i) <= side.limit())
-      sum += glm::ivec3(glm::round(unitFromPacked(side.normals[i]) * kDepthParts));
-  const glm::vec3 mean(sum);
-  const float length = glm::length(mean);
-  return length > 0 ? mean / length : glm::vec3(0, 0, 1);
+  for (size_t i = first; i < first + size_t(side.samples); ++i)
+    if (static_cast<uint32_t>(side.keys[i] >> 32) != side.emptyDepth())
+      sum += glm::ivec3(glm::round(unitFromPacked(side.normals[i]) * kParts));
+  return glm::vec3(sum) / (kParts * static_cast<float>(covered));
 }
 
 void allocate(BakedView& view, const Side& side, const TexelRect& from) {
@@ -186,8 +177,8 @@ void writeNormals(const Side& side, const TexelRect& from, int y, const std::vec
   for (int column = 0; column < view.width; ++column) {
     const int x = side.mirrored ? from.x1 - column : from.x0 + column;
     const size_t first = (size_t(y) * size_t(side.imageSize) + size_t(x)) * size_t(side.samples);
-    const bool known = texels[size_t(column)].covered > 0;
-    const glm::vec3 normal = known ? meanNormal(side, first) : glm::vec3(0);
+    const uint32_t samples = texels[size_t(column)].covered;
+    const glm::vec3 normal = samples > 0 ? meanNormal(side, first, samples) : glm::vec3(0);
     const size_t to = 3 * (size_t(y - from.y0) * size_t(view.width) + size_t(column));
     for (int axis = 0; axis < 3; ++axis) view.normal[to + size_t(axis)] = normal[axis];
   }

@@ -3,10 +3,11 @@
 // Sunlight does not depend on the viewer. A flat triangle's lit colour is linear across it unless it has a texture:
 // large triangles get a *colour plane* and their samples are read off it; a small triangle's few samples are
 // interpolated one by one, as are all samples of textured triangles, and where normals differ from corner to corner or
-// are asked for.
+// are baked themselves.
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct SettleScratch {
 struct Winners {
   const CellSoup& chunk;
   const Projection& projection;
-  glm::vec3 sun;
+  std::optional<glm::vec3> sun;                          // nothing: colours are albedo
   std::span<const uint32_t> largeTriangles, largeSlots;  // rasterise.h
   TextureSampler* textures;                              // null: the chunk has none
 };

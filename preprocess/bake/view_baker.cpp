@@ -1,5 +1,7 @@
 #include "preprocess/bake/view_baker.h"
 
+#include <optional>
+
 #include "cache/base/check.h"
 #include "preprocess/bake/rasterise.h"
 #include "preprocess/bake/resolve.h"
@@ -22,7 +24,9 @@ void CellSoup::clear() {
 
 struct ViewBaker::Impl {
   Impl(const BakeSettings& wanted, TextureSampler* sampler)
-      : settings(wanted), textures(sampler), image(wanted.imageSize, wanted.samples, wanted.normals) {}
+      : settings(wanted), textures(sampler), image(wanted.imageSize, wanted.samples, wanted.relightable) {}
+
+  std::optional<glm::vec3> sun() const { return settings.relightable ? std::nullopt : std::optional(settings.sun); }
 
   BakeSettings settings;
   TextureSampler* textures;
@@ -57,12 +61,11 @@ void ViewBaker::add(const CellSoup& chunk) {
   }
   FARCELL_CHECK(chunk.textures.empty() || (impl_->textures != nullptr && chunk.textures.size() == chunk.size()));
   const bool flat = chunk.normals[0].empty();
-  impl_->raster.planes = flat && !impl_->settings.normals;
+  impl_->raster.planes = flat && !impl_->settings.relightable;
   const bake::TexelRect touched = bake::rasterise(chunk, impl_->projection, impl_->image, impl_->raster);
   impl_->image.touched.include(touched);
   const bake::Winners winners{
-      chunk,          impl_->projection, impl_->settings.sun, impl_->raster.largeTriangles, impl_->raster.largeSlots,
-      impl_->textures};
+      chunk, impl_->projection, impl_->sun(), impl_->raster.largeTriangles, impl_->raster.largeSlots, impl_->textures};
   bake::settle(winners, touched, impl_->image, impl_->settling);
 }
 

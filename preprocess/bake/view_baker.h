@@ -5,7 +5,7 @@
 // time (Highway), which gives the same bits on every instruction set.
 //
 // Inside: rasterise.h finds the nearest and the farthest triangle of every sample (sample_image.h), settle.h gives
-// those samples their lit colour, resolve.h makes texels of them.
+// those samples their colour, resolve.h makes texels of them.
 #pragma once
 
 #include <array>
@@ -38,10 +38,10 @@ struct CellSoup {
 };
 
 struct BakeSettings {
-  int imageSize = 128;     // texels along an edge
-  int samples = 16;        // per texel: 1, 4, 16, 64 (a square number: 1x1, 2x2, 4x4, 8x8)
-  glm::vec3 sun{0, 0, 1};  // unit, world axes (shading.h)
-  bool normals = false;    // also bake the mean normal
+  int imageSize = 128;       // texels along an edge
+  int samples = 16;          // per texel: 1, 4, 16, 64 (a square number: 1x1, 2x2, 4x4, 8x8)
+  glm::vec3 sun{0, 0, 1};    // unit, world axes (shading.h)
+  bool relightable = false;  // no sun: bakes albedo, and the mean normal
 };
 
 // A finished view, cropped to its covered texels, before quantisation.
@@ -50,8 +50,8 @@ struct BakedView {
   std::vector<float> rgba;    // 4 per texel, [0, 1], premultiplied: mean over all samples; alpha is coverage
   std::vector<float> depth;   // 1 per texel: mean w of the covered samples within kDepthAverageTexels of the nearest
                               // one; -infinity where nothing was hit
-  std::vector<float> normal;  // 3 per texel, unit, on the viewer's side (mean of the same samples, renormalised); 0
-                              // where nothing was hit; empty unless asked for
+  std::vector<float> normal;  // 3 per texel: mean of the covered samples' unit normals on the viewer's side; 0 where
+                              // nothing was hit; empty unless relightable
 };
 // Averaging depth across a silhouette would put the surface in mid-air.
 inline constexpr float kDepthAverageTexels = 3;

@@ -26,7 +26,7 @@ uint64_t bytesOfTriangle(const BuildContext& context) {
 
 uint64_t bytesOfPair(const BuildSettings& settings) {
   const auto texels = static_cast<uint64_t>(settings.imageSize) * static_cast<uint64_t>(settings.imageSize);
-  const uint64_t sample = settings.bakeNormals ? 24 : 16;
+  const uint64_t sample = settings.lighting == Lighting::relightable ? 24 : 16;
   // The samples; a view and its antipode as floats, as bytes, and while they are coded.
   return texels * (static_cast<uint64_t>(settings.samples) * sample + 2 * 64);
 }
@@ -45,7 +45,8 @@ class Batch {
       if (context.wanted(batch.cell, view) || context.wanted(batch.cell, antipode)) pairs_.push_back(view);
     }
     const BuildSettings& settings = context.model.settings;
-    settings_ = {settings.imageSize, settings.samples, sunDirection(settings.up), settings.bakeNormals};
+    settings_ = {settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
+                 settings.lighting == Lighting::relightable};
   }
 
   Result<> gathered() {

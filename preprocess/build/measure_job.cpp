@@ -91,7 +91,9 @@ class StoredViews {
  private:
   ViewImage baked(int view) const {
     const BuildSettings& settings = context_.model.settings;
-    ViewBaker baker({settings.imageSize, settings.samples, sunDirection(settings.up), false}, textures_);
+    ViewBaker baker({settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
+                     settings.lighting == Lighting::relightable},
+                    textures_);
     BakedView front, back;
     baker.begin(viewFrame(context_.viewpoints.directions()[static_cast<size_t>(view)]));
     baker.add(grown_);
@@ -142,11 +144,12 @@ Result<> measureStored(const BuildContext& context, const MeasureJob& job, Textu
   StoredViews views(context, cell, grown, textures);
   FARCELL_TRY(views.load());
   const BuildSettings& settings = context.model.settings;
-  FARCELL_ASSIGN(const CellErrors errors,
-                 measureCell({contentOf(context, record), alone, grown, mesh.size() > 0 ? &mesh : nullptr, textures},
-                             [&](int view) { return views(view); },
-                             {context.viewpoints, settings.imageSize, settings.samples, sunDirection(settings.up),
-                              settings.viewError, job.alternatives}));
+  FARCELL_ASSIGN(
+      const CellErrors errors,
+      measureCell({contentOf(context, record), alone, grown, mesh.size() > 0 ? &mesh : nullptr, textures},
+                  [&](int view) { return views(view); },
+                  {context.viewpoints, settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
+                   settings.lighting, settings.viewError, job.alternatives}));
   if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
   return context.store.addErrors(cell, errors);
 }

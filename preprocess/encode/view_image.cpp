@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "shaders/shared/shading.h"
@@ -12,6 +13,15 @@ namespace {
 constexpr float kEmptyDepth = -std::numeric_limits<float>::infinity();
 
 uint8_t unorm8(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
+
+// Octahedral, and the length.
+void putNormal(glm::vec3 mean, uint8_t* out) {
+  const float length = glm::length(mean);
+  const glm::vec2 p = length > 0 ? shared::octahedralFromUnit(mean) : glm::vec2(0);
+  out[0] = unorm8(p.x * 0.5f + 0.5f);
+  out[1] = unorm8(p.y * 0.5f + 0.5f);
+  out[2] = unorm8(length);
+}
 
 // The baked rectangle with one texel more on each side, as far as the image reaches.
 struct Rectangle {
@@ -81,7 +91,7 @@ ViewImage quantisedView(const BakedView& baked, uint32_t view, int imageSize) {
   const size_t texels = size_t{image.width} * image.height;
   image.rgba.resize(4 * texels);
   image.depth.resize(texels);
-  if (!baked.normal.empty()) image.normal.resize(2 * texels);
+  if (!baked.normal.empty()) image.normal.resize(3 * texels);
   for (int row = 0; row < baked.height; ++row) {
     for (int column = 0; column < baked.width; ++column) {
       const size_t from = static_cast<size_t>(row * baked.width + column);
@@ -90,10 +100,8 @@ ViewImage quantisedView(const BakedView& baked, uint32_t view, int imageSize) {
       for (size_t channel = 0; channel < 4; ++channel)
         image.rgba[4 * to + channel] = unorm8(baked.rgba[4 * from + channel]);
       if (baked.normal.empty() || baked.depth[from] == kEmptyDepth) continue;
-      const glm::vec2 p = shared::octahedralFromUnit(
-          glm::vec3(baked.normal[3 * from], baked.normal[3 * from + 1], baked.normal[3 * from + 2]));
-      image.normal[2 * to] = unorm8(p.x * 0.5f + 0.5f);
-      image.normal[2 * to + 1] = unorm8(p.y * 0.5f + 0.5f);
+      putNormal(glm::vec3(baked.normal[3 * from], baked.normal[3 * from + 1], baked.normal[3 * from + 2]),
+                &image.normal[3 * to]);
     }
   }
   quantiseDepth(baked, rectangle, image);

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <type_traits>
 
 #include "cache/base/check.h"
 #include "cache/pack/view_mips.h"
 #include "cache/schema/view_frame.h"
+#include "shaders/shared/shading.h"
 
 FARCELL_SHARED_BEGIN
 
@@ -17,6 +20,7 @@ class Look {
  public:
   std::array<const ViewTexels*, VIEWS> images{};
   float lod = 0;
+  vec3 light{};
   vec4 eye{};
   vec3 boxMin{}, boxMax{};
   std::array<vec4, VIEWS> viewEye{}, viewMin{}, viewMax{};
@@ -37,25 +41,30 @@ class Look {
     const float level = std::clamp(lod, 0.0f, coarsest);
     const auto finer = static_cast<size_t>(level);
     const float part = level - static_cast<float>(finer);
-    const vec4 colour = bilinear(image, finer, texel);
-    return part > 0 ? colour + part * (bilinear(image, finer + 1, texel) - colour) : colour;
+    const auto filtered = [&](const auto& mips) {
+      const vec4 value = bilinear(mips, finer, image.imageSize, texel);
+      return part > 0 ? value + part * (bilinear(mips, finer + 1, image.imageSize, texel) - value) : value;
+    };
+    const vec4 colour = filtered(image.colours);
+    return image.normals.empty() ? colour : relit(colour, vec3(filtered(image.normals)), light);
   }
 
 #include "shaders/shared/look.h"
 
  private:
   // Outside the image everything is transparent.
-  static vec4 bilinear(const ViewTexels& image, size_t level, vec2 texel) {
-    const int edge = image.imageSize >> level;
+  template <class Mips>
+  static vec4 bilinear(const Mips& mips, size_t level, int imageSize, vec2 texel) {
+    const int edge = imageSize >> level;
     const float scale = 1.0f / static_cast<float>(1 << level);
     const float x = texel.x * scale - 0.5f, y = texel.y * scale - 0.5f;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    const std::vector<uint8_t>& texels = image.colours[level];
+    const auto& texels = mips[level];
     const auto at = [&](int column, int row) {
       if (column < 0 || row < 0 || column >= edge || row >= edge) return vec4(0.0f);
-      const uint8_t* t = texels.data() + 4 * (static_cast<size_t>(row) * static_cast<size_t>(edge) + column);
-      return vec4(t[0], t[1], t[2], t[3]) * (1.0f / 255);
+      const auto* t = texels.data() + 4 * (static_cast<size_t>(row) * static_cast<size_t>(edge) + column);
+      return vec4(t[0], t[1], t[2], t[3]) * (1.0f / std::numeric_limits<std::remove_cvref_t<decltype(*t)>>::max());
     };
     const vec4 low = at(x0, y0) * (1 - fx) + at(x0 + 1, y0) * fx;
     const vec4 high = at(x0, y0 + 1) * (1 - fx) + at(x0 + 1, y0 + 1) * fx;
@@ -78,10 +87,11 @@ constexpr std::array<glm::vec2, 4> kRayOffsets = {glm::vec2(-0.125f, -0.375f), g
 template <int VIEWS>
 class Painter {
  public:
-  Painter(const LocalBox& content, std::span<const WeightedView> views, glm::dvec3 toward, int edge)
+  Painter(const LocalBox& content, std::span<const WeightedView> views, glm::dvec3 toward, glm::vec3 light, int edge)
       : frame_(viewFrame(toward)), pixel_(2 * kViewHalfExtent / edge), edge_(edge) {
     const double texel = texelSize(views[0].texels->imageSize);
     const float pad = static_cast<float>(texel) * shared::kBoxPadTexels;
+    look_.light = light;
     look_.boxMin = content.min;
     look_.boxMax = content.max;
     for (int axis = 0; axis < 3; ++axis) {  // not towards the eye, as in impostor.vert
@@ -153,14 +163,15 @@ ViewTexels::ViewTexels(const ViewImage& image, glm::dvec3 from, int size)
     : imageSize(size), view(residentView(image, 0)), direction(from) {
   if (view.layer < 0) return;
   colours = buildColourMips(image, size);
+  if (!image.normal.empty()) normals = buildNormalMips(image, size);
   depths = buildDepthImage(image, size);
 }
 
-Picture impostorPicture(const LocalBox& content, std::span<const WeightedView> views, glm::dvec3 toward, int edge,
-                        int stride) {
+Picture impostorPicture(const LocalBox& content, std::span<const WeightedView> views, glm::dvec3 toward,
+                        glm::vec3 light, int edge, int stride) {
   FARCELL_CHECK(views.size() == 2 || views.size() == 3);
-  if (views.size() == 2) return painted(Painter<2>(content, views, toward, edge), edge, stride);
-  return painted(Painter<3>(content, views, toward, edge), edge, stride);
+  if (views.size() == 2) return painted(Painter<2>(content, views, toward, light, edge), edge, stride);
+  return painted(Painter<3>(content, views, toward, light, edge), edge, stride);
 }
 
 }  // namespace farcell

@@ -18,6 +18,7 @@ struct ViewTexels {
   ResidentView view;
   glm::dvec3 direction;
   std::vector<std::vector<uint8_t>> colours;  // buildColourMips; none for an empty view
+  std::vector<std::vector<int8_t>> normals;   // buildNormalMips; none where colours are lit
   std::vector<uint8_t> depths;
 };
 
@@ -34,8 +35,9 @@ struct LocalBox {
 
 // From far away in the direction `toward` (unit), a pixel 2 kViewHalfExtent / edge half sides, four rays each as beside
 // triangles of four samples. views: two, the nearest first (kind A); or three by falling weight (kind B). They may be
-// empty. `stride`: of the pixels' rows and columns only each so many-th is drawn, from 0; the others stay empty.
-Picture impostorPicture(const LocalBox& content, std::span<const WeightedView> views, glm::dvec3 toward, int edge,
-                        int stride = 1);
+// empty. `light`, as in shading.h, is that of relightable views. `stride`: of the pixels' rows and columns only each so
+// many-th is drawn, from 0; the others stay empty.
+Picture impostorPicture(const LocalBox& content, std::span<const WeightedView> views, glm::dvec3 toward,
+                        glm::vec3 light, int edge, int stride = 1);
 
 }  // namespace farcell

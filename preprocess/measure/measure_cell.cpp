@@ -34,7 +34,8 @@ class BakedViews {
         viewpoints_(viewpoints),
         imageSize_(imageSize),
         viewError_(settings.viewError),
-        baker_({imageSize, settings.samples, settings.sun, false}, cell.textures) {}
+        baker_({imageSize, settings.samples, settings.sun, settings.lighting == Lighting::relightable}, cell.textures) {
+  }
 
   ViewImage operator()(int view) {
     if (const auto known = baked_.find(view); known != baked_.end()) return known->second;
@@ -100,7 +101,7 @@ class Measurement {
         for (int side = 0; side < 2; ++side) {
           const glm::dvec3 toward = side == 0 ? direction : -direction;
           const auto add = [&](std::span<const WeightedView> some, ErrorSum& sum) {
-            sum.add(truth.side(side), impostorPicture(cell_.content, some, toward, truth.front.edge),
+            sum.add(truth.side(side), impostorPicture(cell_.content, some, toward, settings_.sun, truth.front.edge),
                     own[static_cast<size_t>(side)]);
           };
           FARCELL_ASSIGN(const auto two, views.nearestTwo(toward));
@@ -144,7 +145,7 @@ class Measurement {
   Result<> impostors(const Picture& truth, const OwnPixels& own, glm::dvec3 direction, size_t scale) {
     const int stride = kErrorTexelPixels[scale] > 1 ? kFinestStride : 1;
     const auto add = [&](std::span<const WeightedView> views, ErrorSum& sum) {
-      sum.add(truth, impostorPicture(cell_.content, views, direction, truth.edge, stride), own, stride);
+      sum.add(truth, impostorPicture(cell_.content, views, direction, settings_.sun, truth.edge, stride), own, stride);
     };
     FARCELL_ASSIGN(const auto two, views_.nearestTwo(direction));
     add(two, way(ErrorWay::depthCorrected)[scale]);

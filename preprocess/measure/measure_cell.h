@@ -12,6 +12,7 @@
 
 #include "cache/base/result.h"
 #include "cache/pack/error_table.h"
+#include "cache/schema/model.h"
 #include "cache/schema/viewpoints.h"
 #include "preprocess/measure/view_set.h"
 
@@ -31,8 +32,9 @@ struct MeasureSettings {
   int imageSize = 128;  // texels along a view's edge
   int samples = 16;     // per texel of views
   glm::vec3 sun{0, 0, 1};
-  int viewError = 0;          // of alternatives, as BuildSettings::viewError
-  bool alternatives = false;  // are measured too
+  Lighting lighting = Lighting::baked;  // of views
+  int viewError = 0;                    // of alternatives, as BuildSettings::viewError
+  bool alternatives = false;            // are measured too
 };
 
 // What other sets of views would show, and take: where a texel of the settings' own views is half a pixel, along the

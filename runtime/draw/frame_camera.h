@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "cache/pack/directory.h"
-#include "runtime/camera/camera.h"
+#include "runtime/camera/light.h"
 #include "runtime/selection/selection.h"
 #include "shaders/shared/draw.h"
 
@@ -22,6 +22,7 @@ struct FrameView {
   int height = 0;
   glm::dvec2 jitterPx{0};  // the picture is moved by this many pixels (x right, y up)
   int samples = 1;         // of a pixel
+  Light light;
 };
 
 // The near plane is half way to the nearest content box of the cut, and not nearer than 2^-20 of the root's side:

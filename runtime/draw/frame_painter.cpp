@@ -59,9 +59,9 @@ Result<FramePainter> FramePainter::create(const PackFile& pack, const Viewpoints
 FramePainter::FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes)
     : pack_(pack),
       viewpoints_(viewpoints),
-      viewBytes_(residentBytes / 2),
       geometry_(residentBytes / 2),
-      views_(pack.directory().model.settings.imageSize, viewBytes_),
+      views_(pack.directory().model.settings.imageSize, residentBytes / 2,
+             pack.directory().model.settings.lighting == Lighting::relightable),
       uniforms_(createBuffer()),
       instances_(createBuffer()),
       corners_(createBuffer()),
@@ -75,9 +75,9 @@ Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
   const Model& model = pack_.directory().model;
   std::vector<std::string> defines;
   if (look != Look::picture) defines = {"SHOW", kLookDefines[static_cast<size_t>(look)]};
-  if (look == Look::normals && model.settings.bakeNormals) defines.push_back("BAKED_NORMALS");
   std::vector<std::string> triangleDefines = defines;
   if (model.hasNormals) triangleDefines.push_back("SMOOTH_NORMALS");
+  if (model.settings.lighting == Lighting::relightable) defines.push_back("RELIGHTABLE");
   Programs programs;
   FARCELL_ASSIGN(programs.triangles,
                  loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
@@ -95,11 +95,7 @@ Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
   return programs;
 }
 
-// What a look needs beyond the picture's: its programs; the first time normals are shown, views that have them.
 Result<> FramePainter::prepare(Look look) {
-  const BuildSettings& settings = pack_.directory().model.settings;
-  if (look == Look::normals && settings.bakeNormals && !views_.hasNormals())
-    views_ = ViewStore(settings.imageSize, viewBytes_, true);
   std::optional<Programs>& programs = programs_[static_cast<size_t>(look)];
   if (programs) return {};
   FARCELL_ASSIGN(programs, loadPrograms(look));

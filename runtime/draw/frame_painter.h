@@ -75,7 +75,6 @@ class FramePainter {
 
   const PackFile& pack_;
   const Viewpoints& viewpoints_;
-  const uint64_t viewBytes_;
   std::array<std::optional<Programs>, 4> programs_;  // by look, each made with the first frame that has it
   std::optional<LinePainter> linePainter_;           // likewise
   GeometryStore geometry_;

@@ -12,7 +12,7 @@ constexpr int kFirstLayers = 64;
 uint64_t layerBytes(int imageSize, bool withNormals) {
   uint64_t texels = 0;
   for (uint64_t edge = static_cast<uint64_t>(imageSize); edge > 0; edge /= 2) texels += edge * edge;
-  return texels * 4 + static_cast<uint64_t>(imageSize) * static_cast<uint64_t>(imageSize) * (withNormals ? 3 : 1);
+  return texels * (withNormals ? 8 : 4) + static_cast<uint64_t>(imageSize) * static_cast<uint64_t>(imageSize);
 }
 
 int layerLimit(uint64_t bytesPerLayer, uint64_t budgetBytes) {
@@ -36,6 +36,13 @@ void copyLayers(const GlTexture& from, const GlTexture& to, int imageSize, int l
   for (int level = 0; level < levels; ++level)
     glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, level, 0, 0, 0, to.name(), GL_TEXTURE_2D_ARRAY, level, 0, 0, 0,
                        imageSize >> level, imageSize >> level, layers);
+}
+
+template <class Mips>
+void uploadMips(const GlTexture& texture, int layer, int imageSize, GLenum type, const Mips& mips) {
+  for (int level = 0; level < static_cast<int>(mips.size()); ++level)
+    glTextureSubImage3D(texture.name(), level, 0, 0, layer, imageSize >> level, imageSize >> level, 1, GL_RGBA, type,
+                        mips[static_cast<size_t>(level)].data());
 }
 
 }  // namespace
@@ -104,9 +111,9 @@ void ViewStore::grow(int layers) {
     copyLayers(depths_, depths, imageSize_, 1, layers_);
   }
   if (withNormals_) {
-    GlTexture normals = createArray(GL_RG8, imageSize_, 1, layers, GL_NEAREST, GL_NEAREST);
+    GlTexture normals = createArray(GL_RGBA8_SNORM, imageSize_, levels, layers, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     normals.label("view normals");
-    if (layers_ > 0) copyLayers(normals_, normals, imageSize_, 1, layers_);
+    if (layers_ > 0) copyLayers(normals_, normals, imageSize_, levels, layers_);
     normals_ = std::move(normals);
   }
   colours_ = std::move(colours);
@@ -128,17 +135,11 @@ bool ViewStore::evictOldest() {
 
 void ViewStore::upload(int layer, const ViewImage& image) const {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const auto mips = buildColourMips(image, imageSize_);
-  for (int level = 0; level < static_cast<int>(mips.size()); ++level)
-    glTextureSubImage3D(colours_.name(), level, 0, 0, layer, imageSize_ >> level, imageSize_ >> level, 1, GL_RGBA,
-                        GL_UNSIGNED_BYTE, mips[static_cast<size_t>(level)].data());
+  uploadMips(colours_, layer, imageSize_, GL_UNSIGNED_BYTE, buildColourMips(image, imageSize_));
   const auto depth = buildDepthImage(image, imageSize_);
   glTextureSubImage3D(depths_.name(), 0, 0, 0, layer, imageSize_, imageSize_, 1, GL_RED, GL_UNSIGNED_BYTE,
                       depth.data());
-  if (!withNormals_) return;
-  const auto normal = buildNormalImage(image, imageSize_);
-  glTextureSubImage3D(normals_.name(), 0, 0, 0, layer, imageSize_, imageSize_, 1, GL_RG, GL_UNSIGNED_BYTE,
-                      normal.data());
+  if (withNormals_) uploadMips(normals_, layer, imageSize_, GL_BYTE, buildNormalMips(image, imageSize_));
 }
 
 void ViewStore::bind() const {

@@ -1,6 +1,6 @@
-// Views on the GPU: one layer each of a colour array (RGBA8 with mips), a depth array (R8) and, where asked for, an
-// array of normals (RG8, octahedral), within a byte budget. Portions as in geometry_store.h; the views used longest ago
-// leave first.
+// Views on the GPU: one layer each of a colour array (RGBA8 with mips), a depth array (R8) and, of relightable packs,
+// an array of normals (RGBA8 signed, with mips), within a byte budget. Portions as in geometry_store.h; the views used
+// longest ago leave first.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,14 @@ namespace farcell {
 class ViewStore {
  public:
   // REQUIRES: a current context. Three layers, an impostor's, are always held.
-  // withNormals: of packs whose views have them.
-  ViewStore(int imageSize, uint64_t budgetBytes, bool withNormals = false);
+  // withNormals: of relightable packs.
+  ViewStore(int imageSize, uint64_t budgetBytes, bool withNormals);
 
   void beginPortion();
   // Keeps a known view for this portion; null when it has to be added.
   const ResidentView* keep(uint32_t cell, uint32_t view);
   // Uploads and keeps; an empty image (width 0) costs no layer. Null when the portion's views leave no room.
   const ResidentView* add(uint32_t cell, uint32_t view, const ViewImage& image);
-  bool hasNormals() const { return withNormals_; }
   // Colours to texture unit 0, depths to unit 1, normals to unit 2. REQUIRES: an added view that is not empty.
   void bind() const;
 

@@ -1,9 +1,14 @@
 // Kinds A (VIEWS 2) and B (VIEWS 3): what rays through the pixel see (shaders/shared/look.h), the mean of them.
+// RELIGHTABLE: views hold albedo and normals.
 #include "shaders/shared/draw.h"
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(binding = 0) uniform sampler2DArray colours;
 layout(binding = 1) uniform sampler2DArray depths;
+#ifdef RELIGHTABLE
+#include "shaders/shared/shading.h"
+layout(binding = 2) uniform sampler2DArray normals;  // mean vectors, premultiplied by coverage
+#endif
 
 sample in vec3 boxPoint;
 sample in vec3 viewPoint[VIEWS];
@@ -29,7 +34,11 @@ float depthValue(vec2 texel, float layer) {
 // Of a view at a texel that the ray reaches at s.
 vec4 colourAt(vec2 texel, float layer, float s) {
   float lod = eye.w - frame.image.w + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
-  return textureLod(colours, vec3(texel * frame.image.y, layer), lod);
+  vec4 colour = textureLod(colours, vec3(texel * frame.image.y, layer), lod);
+#ifdef RELIGHTABLE
+  colour = relit(colour, textureLod(normals, vec3(texel * frame.image.y, layer), lod).xyz, frame.light.xyz);
+#endif
+  return colour;
 }
 
 #include "shaders/shared/look.h"

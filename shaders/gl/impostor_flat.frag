@@ -1,7 +1,12 @@
+// RELIGHTABLE: views hold albedo and normals.
 #include "shaders/shared/draw.h"
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(binding = 0) uniform sampler2DArray colours;
+#ifdef RELIGHTABLE
+#include "shaders/shared/shading.h"
+layout(binding = 2) uniform sampler2DArray normals;  // mean vectors, premultiplied by coverage
+#endif
 
 #ifdef SHOW
 layout(binding = 1) uniform sampler2DArray depths;
@@ -20,6 +25,9 @@ layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked fo
 void main() {
   float lod = layerAndLod.y - log2(gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
   colour = textureLod(colours, vec3(texel * frame.image.y, layerAndLod.x), lod);
+#ifdef RELIGHTABLE
+  colour = relit(colour, textureLod(normals, vec3(texel * frame.image.y, layerAndLod.x), lod).xyz, frame.light.xyz);
+#endif
 #ifdef SHOW
   colour = shownInstead(colour, shownInstance, 0, texel, 1.0 / gl_FragCoord.w, along);
 #endif

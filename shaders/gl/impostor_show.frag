@@ -1,14 +1,12 @@
 // Included by all kinds of impostors when they show something else than the picture: SHOW_TINT, SHOW_DEPTH or
-// SHOW_NORMALS as in shaders/shared/show.h, BAKED_NORMALS where views hold normals. After `frame` and `depths`.
-#include "shaders/shared/shading.h"
+// SHOW_NORMALS as in shaders/shared/show.h. After `frame`, `depths` and, where RELIGHTABLE, `normals`.
 #include "shaders/shared/show.h"
 
 layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instances[]; };
-#ifdef BAKED_NORMALS
-layout(binding = 2) uniform sampler2DArray normals;  // octahedral
-
+#ifdef RELIGHTABLE
 vec3 impostorNormal(ImpostorView view, ivec2 texel) {
-  return unitFromOctahedral(texelFetch(normals, ivec3(texel, int(view.boxMin.w)), 0).rg * 2.0 - 1.0);
+  vec3 mean = texelFetch(normals, ivec3(texel, int(view.boxMin.w)), 0).xyz;
+  return mean / max(length(mean), 1e-3);
 }
 #else
 float depthAt(ImpostorView view, ivec2 texel) {

@@ -28,7 +28,7 @@ layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked fo
 void main() {
 #ifdef SMOOTH_NORMALS
   vec3 unit = normalize(surfaceNormal);
-  colour = vec4(shade(albedo, unit, frame.sun.xyz), 1.0);
+  colour = vec4(shade(albedo, unit, frame.light.xyz), 1.0);
 #else
   vec3 unit = faceNormal;
   colour = vec4(mix(albedo * light, shown.rgb, shown.a), 1.0);

@@ -38,7 +38,7 @@ void main() {
 #ifdef SMOOTH_NORMALS
   surfaceNormal = unit;
 #else
-  light = lightFactor(unit, frame.sun.xyz);
+  light = lightFactor(unit, frame.light.xyz);
   shown = vec4(colour.rgb, 1.0 - colour.a);
   faceNormal = unit;
 #endif

@@ -59,8 +59,8 @@ std::vector<SyntheticTriangle> ballOnATable() {
   return scene;
 }
 
-DrawnPack openScene(bool withNormals = false) {
-  return openDrawn(ballOnATable(), {.level = 2, .imageSize = 32, .samplesPerEdge = 2, .withNormals = withNormals});
+DrawnPack openScene(Lighting lighting = Lighting::baked) {
+  return openDrawn(ballOnATable(), {.level = 2, .imageSize = 32, .samplesPerEdge = 2, .lighting = lighting});
 }
 
 const Camera kCamera = lookAt({9, 5, 4}, {0, 0, -0.3}, 0.5);
@@ -195,7 +195,7 @@ double normalError(DrawnPack& drawn, RenderMode mode, ImpostorKind kind) {
 
 TEST(Show, normalsAreThoseOfTheSurface) {
   DrawnPack drawn = openScene();
-  DrawnPack baked = openScene(true);
+  DrawnPack baked = openScene(Lighting::relightable);
   // Facets of a sphere of 512 faces differ from it by some degrees.
   EXPECT_LT(normalError(drawn, RenderMode::triangles, ImpostorKind::depthCorrected), 15);
   const double derived = normalError(drawn, RenderMode::impostors, ImpostorKind::depthCorrected);
@@ -207,8 +207,8 @@ TEST(Show, normalsAreThoseOfTheSurface) {
 }
 
 TEST(Show, aFaceTowardsTheEyeHasTheColourOfItsAxis) {
-  DrawnPack drawn =
-      openDrawn(boxTriangles({-1, -1, -1}, {1, 1, 1}, 0x00ffffff), {.level = 1, .imageSize = 32, .withNormals = true});
+  DrawnPack drawn = openDrawn(boxTriangles({-1, -1, -1}, {1, 1, 1}, 0x00ffffff),
+                              {.level = 1, .imageSize = 32, .lighting = Lighting::relightable});
   for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1)})
     for (const RenderMode mode : {RenderMode::triangles, RenderMode::impostors}) {
       FrameImage image;
@@ -325,7 +325,7 @@ TEST(Show, errorGrowsWithNearnessAndIsNoneForTriangles) {
 
 TEST(Show, anEyeAnywhereDrawsWithoutFailing) {
   DrawnPack drawn = openDrawn(sphereTriangles({0, 0, 0}, 1, 2, 0x00ffffff),
-                              {.level = 2, .imageSize = 16, .samplesPerEdge = 1, .withNormals = true});
+                              {.level = 2, .imageSize = 16, .samplesPerEdge = 1, .lighting = Lighting::relightable});
   FrameImage image;
   for (const glm::dvec3 eye : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(1e9, 0, 0), glm::dvec3(-1e308, 0, 0)})
     for (const Show show : kShows)

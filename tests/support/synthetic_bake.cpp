@@ -23,12 +23,13 @@ glm::dvec3 towards(glm::dvec3 direction, glm::dvec3 normal) {
   return glm::dot(direction, normal) < 0 ? -normal : normal;
 }
 
-// Octahedral, [0, 255] for [-1, 1].
-std::array<uint8_t, 2> normalBytes(glm::dvec3 sum) {
-  if (glm::length(sum) < 1e-9) return {128, 128};
-  const glm::vec2 p = shared::octahedralFromUnit(glm::vec3(glm::normalize(sum)));
+// Octahedral, [0, 255] for [-1, 1], and the length.
+std::array<uint8_t, 3> normalBytes(glm::dvec3 mean) {
+  if (glm::length(mean) < 1e-9) return {0, 0, 0};
+  const glm::vec2 p = shared::octahedralFromUnit(glm::vec3(glm::normalize(mean)));
   return {static_cast<uint8_t>(std::lround((p.x * 0.5f + 0.5f) * 255)),
-          static_cast<uint8_t>(std::lround((p.y * 0.5f + 0.5f) * 255))};
+          static_cast<uint8_t>(std::lround((p.y * 0.5f + 0.5f) * 255)),
+          static_cast<uint8_t>(std::lround(glm::length(mean) * 255))};
 }
 
 class Image {
@@ -82,7 +83,7 @@ class Image {
 
 struct Texel {
   glm::dvec4 rgba{0};
-  glm::dvec3 normal{0};  // a sum
+  glm::dvec3 normal{0};  // a sum, then the mean
   double w = -INFINITY;
 };
 
@@ -92,13 +93,14 @@ std::vector<Texel> averaged(const Image& image, int imageSize, int samplesPerEdg
     for (int x = 0; x < imageSize; ++x) {
       Texel& out = texels[static_cast<size_t>(y * imageSize + x)];
       double front = -INFINITY, sum = 0;
-      int count = 0;
+      int count = 0, covered = 0;
       for (int pass = 0; pass < 2; ++pass)
         for (int s = 0; s < samplesPerEdge * samplesPerEdge; ++s) {
           const Sample& sample =
               image.at(x * samplesPerEdge + s % samplesPerEdge, y * samplesPerEdge + s / samplesPerEdge);
           if (!std::isfinite(sample.w)) continue;
           if (pass == 0) {
+            ++covered;
             front = std::max(front, sample.w);
             out.normal += sample.normal;
             out.rgba += glm::dvec4(sample.colour, 1.0) / static_cast<double>(samplesPerEdge * samplesPerEdge);
@@ -108,6 +110,7 @@ std::vector<Texel> averaged(const Image& image, int imageSize, int samplesPerEdg
           }
         }
       if (count > 0) out.w = sum / count;
+      if (covered > 0) out.normal /= covered;
     }
   return texels;
 }
@@ -133,7 +136,7 @@ std::vector<double> dilated(const std::vector<Texel>& texels, int size) {
 
 ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 direction,
                         const SyntheticView& wanted) {
-  const auto [view, imageSize, samplesPerEdge, withNormals] = wanted;
+  const auto [view, imageSize, samplesPerEdge, relightable] = wanted;
   Image image(viewFrame(direction), imageSize * samplesPerEdge);
   for (const LocalTriangle& triangle : triangles) image.draw(triangle);
   const std::vector<Texel> texels = averaged(image, imageSize, samplesPerEdge, texelSize(imageSize));
@@ -159,8 +162,8 @@ ViewImage bakeSynthetic(const std::vector<LocalTriangle>& triangles, glm::dvec3 
         result.rgba.push_back(static_cast<uint8_t>(std::lround(texels[i].rgba[channel] * 255)));
       const double value = high > low ? std::round((depth[i] - low) / (high - low) * 254) : 0;
       result.depth.push_back(std::isfinite(depth[i]) ? static_cast<uint8_t>(1 + value) : uint8_t{0});
-      const std::array<uint8_t, 2> normal = normalBytes(texels[i].normal);
-      if (withNormals) result.normal.insert(result.normal.end(), normal.begin(), normal.end());
+      const std::array<uint8_t, 3> normal = normalBytes(texels[i].normal);
+      if (relightable) result.normal.insert(result.normal.end(), normal.begin(), normal.end());
     }
   return result;
 }

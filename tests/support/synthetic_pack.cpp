@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "cache/pack/pack_file.h"
@@ -110,13 +111,15 @@ std::vector<CutCell> makeTree(std::map<CellKey, CutCell> cells, int level) {
   return result;
 }
 
-glm::dvec3 lit(uint32_t colour, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::vec3 sun) {
+// Albedo where there is no sun.
+glm::dvec3 lit(uint32_t colour, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, const std::optional<glm::vec3>& sun) {
   const glm::vec3 albedo = glm::vec3(colour & 255, colour >> 8 & 255, colour >> 16 & 255) / 255.0f;
-  return glm::dvec3(shared::shade(albedo, glm::vec3(glm::normalize(glm::cross(b - a, c - a))), sun));
+  if (!sun) return glm::dvec3(albedo);
+  return glm::dvec3(shared::shade(albedo, glm::vec3(glm::normalize(glm::cross(b - a, c - a))), *sun));
 }
 
 std::vector<LocalTriangle> localTriangles(const std::vector<CutCell>& cells, const Grid& grid, const CellKey& key,
-                                          glm::vec3 sun) {
+                                          const std::optional<glm::vec3>& sun) {
   const GridBox cube = cellBox(grid, key);
   const glm::dvec3 centre = glm::dvec3(cube.min + cube.max) * 0.5;
   const double halfSide = (cube.max.x - cube.min.x) * 0.5;
@@ -140,9 +143,10 @@ Result<> addViews(PackWriter& writer, uint32_t index, CellRecord& record, const 
   std::map<uint32_t, ViewPage> groups;
   for (int view = 0; view < viewpoints.count(); ++view)
     if (std::find(settings.leftOut.begin(), settings.leftOut.end(), view) == settings.leftOut.end())
-      groups[static_cast<uint32_t>(viewpoints.group(view))].views.push_back(bakeSynthetic(
-          triangles, viewpoints.directions()[static_cast<size_t>(view)],
-          {static_cast<uint32_t>(view), settings.imageSize, settings.samplesPerEdge, settings.withNormals}));
+      groups[static_cast<uint32_t>(viewpoints.group(view))].views.push_back(
+          bakeSynthetic(triangles, viewpoints.directions()[static_cast<size_t>(view)],
+                        {static_cast<uint32_t>(view), settings.imageSize, settings.samplesPerEdge,
+                         settings.lighting == Lighting::relightable}));
   for (const auto& [group, page] : groups) {
     FARCELL_ASSIGN(const uint32_t added,
                    writer.add(PageKind::views, index, group, decodedSizeBytes(page), encodeViewPage(page)));
@@ -168,7 +172,8 @@ Result<> writeSyntheticPack(const std::filesystem::path& path, const std::vector
   model.grid = gridAround(low, high);
   model.settings.views = settings.views;
   model.settings.imageSize = settings.imageSize;
-  model.settings.bakeNormals = settings.withNormals;
+  model.settings.lighting = settings.lighting;
+  model.settings.sun = settings.sun;
   model.settings.up = settings.up;
   model.hasColours = true;
   std::map<CellKey, CutCell> leaves;
@@ -177,6 +182,8 @@ Result<> writeSyntheticPack(const std::filesystem::path& path, const std::vector
     scatter({model.grid.gridFromWorld(triangle.corners[0]), model.grid.gridFromWorld(triangle.corners[1]),
              model.grid.gridFromWorld(triangle.corners[2])},
             0, start, model.grid.bits - settings.level, triangle.colour, leaves);
+  std::optional<glm::vec3> sun;
+  if (settings.lighting == Lighting::baked) sun = sunDirection(settings.up, settings.sun);
   std::vector<CutCell> cells = makeTree(std::move(leaves), settings.level);
   model.bounds = cells[0].record.content;
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(path));
@@ -189,8 +196,8 @@ Result<> writeSyntheticPack(const std::filesystem::path& path, const std::vector
       record.geometryPageCount = 1;
     }
     if (settings.withViews && (record.childCount == 0 || settings.withInnerViews))
-      FARCELL_TRY(addViews(writer, i, record, localTriangles(cells, model.grid, record.key, sunDirection(settings.up)),
-                           viewpoints, settings));
+      FARCELL_TRY(
+          addViews(writer, i, record, localTriangles(cells, model.grid, record.key, sun), viewpoints, settings));
     directory.cells.push_back(record);
   }
   FARCELL_TRY(writer.finish(std::move(directory)));

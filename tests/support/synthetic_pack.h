@@ -25,7 +25,8 @@ struct SyntheticPack {
   int samplesPerEdge = 3;  // of a texel
   bool withViews = true;
   bool withInnerViews = true;
-  bool withNormals = false;       // of views
+  Lighting lighting = Lighting::baked;
+  Sun sun = {};
   std::vector<int> leftOut = {};  // views that no cell has
   UpAxis up = UpAxis::z;
 };

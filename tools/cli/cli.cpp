@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <glm/trigonometric.hpp>
 #include <memory>
 
 #include "cache/base/interrupt.h"
@@ -154,6 +155,19 @@ Result<std::array<uint8_t, 3>> parseColour(const std::string& option, const std:
     at = next + 1;
   }
   return colour;
+}
+
+Result<Sun> parseSun(const std::string& option, const std::string& text) {
+  std::array<double, 2> degrees{};
+  const char* const end = text.data() + text.size();
+  const auto [comma, first] = std::from_chars(text.data(), end, degrees[0]);
+  const bool separated = first == std::errc{} && comma != end && *comma == ',';
+  const auto [last, second] = std::from_chars(separated ? comma + 1 : end, end, degrees[1]);
+  const Sun sun{glm::radians(degrees[0]), glm::radians(degrees[1])};
+  if (second != std::errc{} || last != end || !isSun(sun))
+    return fail(ErrorKind::invalidArgument, "{}: expected AZIMUTH,ELEVATION of -360 to 360 and -90 to 90, found '{}'",
+                option, text);
+  return sun;
 }
 
 }  // namespace farcell

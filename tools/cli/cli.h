@@ -9,6 +9,7 @@
 
 #include "cache/base/progress.h"
 #include "cache/base/result.h"
+#include "cache/schema/model.h"
 
 namespace farcell {
 
@@ -34,5 +35,8 @@ Result<ImageSize> parseImageSize(const std::string& text);
 
 // "179,204,230"; the option's name is for the message.
 Result<std::array<uint8_t, 3>> parseColour(const std::string& option, const std::string& text);
+
+// "120,30": azimuth of -360 to 360 and elevation of -90 to 90 degrees.
+Result<Sun> parseSun(const std::string& option, const std::string& text);
 
 }  // namespace farcell

@@ -17,6 +17,7 @@
 #include "tools/evaluate/path/camera_path.h"
 #include "tools/evaluate/path/generated_path.h"
 #include "tools/evaluate/plan/auto_cameras.h"
+#include "tools/evaluate/plan/suns.h"
 #include "tools/evaluate/plan/sweep.h"
 #include "tools/evaluate/reference/reference.h"
 #include "tools/evaluate/report/equal_report.h"
@@ -26,6 +27,7 @@
 #include "tools/evaluate/report/pictures.h"
 #include "tools/evaluate/report/report.h"
 #include "tools/evaluate/report/summary.h"
+#include "tools/evaluate/report/sun_report.h"
 
 namespace farcell {
 namespace {
@@ -49,6 +51,7 @@ struct Run {
   std::vector<std::string> stems;  // of file names, one a camera, then one a path
   ReportFacts facts;
   std::vector<Entry> entries;          // of finished cameras
+  std::vector<SunEntries> sunEntries;  // of finished cameras
   std::vector<PathEntry> pathEntries;  // of finished frames
 };
 
@@ -103,12 +106,13 @@ Result<std::optional<MeshReference>> loadMesh(const EvaluateOptions& options, co
   return mesh;
 }
 
-Result<ReferenceImage> traceCamera(Run& run, const Camera& camera) {
+Result<ReferenceImage> traceCamera(Run& run, const Camera& camera, const Light& light) {
   const auto start = std::chrono::steady_clock::now();
   ReferenceSettings settings;
   settings.width = run.options.width;
   settings.height = run.options.height;
   settings.samples = run.options.referenceSamples;
+  settings.light = light;
   FARCELL_ASSIGN(ReferenceImage image,
                  run.mesh ? run.mesh->trace(camera, settings) : traceReference(run.packs.own(), camera, settings));
   run.facts.referenceSeconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -135,7 +139,8 @@ Result<> bakeBaseline(Run& run, Progress& progress) {
   FARCELL_ASSIGN(const uint64_t bytes, memoryOfAuto(run));
   plan->frameEdge = octahedralEdgeOf(bytes);
   progress.begin("bake octahedral impostor", kOctahedralFrames, "views");
-  FARCELL_ASSIGN(const OctahedralViews views, bakeOctahedral(run.packs.own(), plan->frameEdge));
+  const glm::vec3 sun = lightDirection(run.options.light, run.packs.own().directory().model.settings, {});
+  FARCELL_ASSIGN(const OctahedralViews views, bakeOctahedral(run.packs.own(), plan->frameEdge, sun));
   progress.end();
   FARCELL_ASSIGN(run.octahedral, OctahedralImpostor::create(run.context, views));
   return {};
@@ -166,7 +171,7 @@ Result<RendererPlan> settledPlan(const Run& run, const Camera& camera, RendererP
 Result<> measureCamera(Run& run, size_t index, Progress& progress) {
   const Camera& camera = run.cameras[index];
   const EvaluateOptions& options = run.options;
-  FARCELL_ASSIGN(const ReferenceImage reference, traceCamera(run, camera));
+  FARCELL_ASSIGN(const ReferenceImage reference, traceCamera(run, camera, run.options.light));
   FARCELL_TRY(writeReferencePicture(options.output, run.stems[index], reference, options.background));
   progress.advance();
   std::vector<Entry> entries;
@@ -197,14 +202,49 @@ Result<> measureCameras(Run& run, Progress& progress) {
   return {};
 }
 
+// Without those that need the cameras' other measurements, or a bake of their own.
+std::vector<RendererPlan> plansAlone(const std::vector<RendererPlan>& plans) {
+  std::vector<RendererPlan> alone;
+  std::copy_if(plans.begin(), plans.end(), std::back_inserter(alone),
+               [](const RendererPlan& plan) { return plan.timeOf.empty() && plan.name != kOctahedral; });
+  return alone;
+}
+
+// Figures only, of frames that are not timed.
+Result<> measureUnder(Run& run, const Sun& sun, Progress& progress) {
+  const MeasureSettings settings{1, run.options.residentBytes, run.options.background};
+  const Light light{LightKind::sun, sun};
+  SunEntries& under = run.sunEntries.emplace_back(SunEntries{sun, {}});
+  for (const Camera& camera : run.cameras) {
+    FARCELL_ASSIGN(const ReferenceImage reference, traceCamera(run, camera, light));
+    for (RendererPlan plan : plansAlone(run.plans)) {
+      FARCELL_TRY(checkInterrupt());
+      plan.settings.light = light;
+      FARCELL_ASSIGN(Measurement measurement,
+                     measureRenderer(run.context, run.packs.of(plan), camera, plan, reference, settings));
+      under.entries.push_back(std::move(measurement.entry));
+      progress.advance();
+    }
+  }
+  return {};
+}
+
+Result<> measureSuns(Run& run, Progress& progress) {
+  if (run.options.suns == 0) return {};
+  const std::vector<Sun> suns = skySuns(run.options.suns);
+  progress.begin("other suns", suns.size() * run.cameras.size() * plansAlone(run.plans).size(), "pictures");
+  for (const Sun& sun : suns) FARCELL_TRY(measureUnder(run, sun, progress));
+  progress.end();
+  return {};
+}
+
 Result<> measurePaths(Run& run, Progress& progress) {
   PathSettings settings;
   settings.output = run.options.output;
   settings.residentBytes = run.options.residentBytes;
   settings.background = run.options.background;
-  std::copy_if(run.plans.begin(), run.plans.end(), std::back_inserter(settings.plans),
-               [](const RendererPlan& plan) { return plan.timeOf.empty() && plan.name != kOctahedral; });
-  settings.trace = [&](const Camera& camera) { return traceCamera(run, camera); };
+  settings.plans = plansAlone(run.plans);
+  settings.trace = [&](const Camera& camera) { return traceCamera(run, camera, run.options.light); };
   settings.pictureDone = [&] { progress.advance(); };
   for (size_t i = 0; i < run.paths.size(); ++i) {
     const Path& path = run.paths[i];
@@ -222,13 +262,15 @@ Result<> measurePaths(Run& run, Progress& progress) {
 Result<> measureAll(Run& run, Progress& progress) {
   FARCELL_TRY(bakeBaseline(run, progress));
   FARCELL_TRY(measureCameras(run, progress));
+  FARCELL_TRY(measureSuns(run, progress));
   return measurePaths(run, progress);
 }
 
 std::string tables(const Run& run, const EqualTable& equal) {
   std::string text;
-  for (const std::string& table : {run.entries.empty() ? "" : reportTable(run.entries), equalText(equal),
-                                   run.pathEntries.empty() ? "" : pathsTable(run.pathEntries)})
+  for (const std::string& table :
+       {run.entries.empty() ? "" : reportTable(run.entries), equalText(equal), sunsText(run.sunEntries),
+        run.pathEntries.empty() ? "" : pathsTable(run.pathEntries)})
     text += (text.empty() || table.empty() ? "" : "\n") + table;
   return text;
 }
@@ -237,6 +279,7 @@ Result<> writeReport(const Run& run) {
   nlohmann::ordered_json json = reportJson(run.facts, run.entries);
   const EqualTable equal = equalTable(run.entries);
   json["equal"] = equalJson(equal);
+  json["suns"] = sunsJson(run.sunEntries);
   json["paths"] = pathsJson(run.pathEntries);
   // Names from outside may hold bytes that are not UTF-8: those are replaced.
   const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -244,6 +287,7 @@ Result<> writeReport(const Run& run) {
   FARCELL_TRY(writeTextFile(run.options.output / "report.csv", reportCsv(run.entries)));
   FARCELL_TRY(writeTextFile(run.options.output / "summary.csv", summaryCsv(run.entries)));
   FARCELL_TRY(writeTextFile(run.options.output / "equal.csv", equalCsv(equal)));
+  FARCELL_TRY(writeTextFile(run.options.output / "suns.csv", sunsCsv(run.sunEntries)));
   FARCELL_TRY(writeTextFile(run.options.output / "paths.csv", pathsCsv(run.pathEntries)));
   FARCELL_TRY(writeTextFile(run.options.output / "index.html", reportPage(json)));
   std::fputs(run.options.json ? text.c_str() : tables(run, equal).c_str(), stdout);
@@ -262,6 +306,7 @@ ReportFacts reportFacts(const EvaluateOptions& options, const Packs& packs, cons
   facts.width = options.width;
   facts.height = options.height;
   facts.timedFrames = options.timedFrames;
+  facts.light = options.light;
   facts.background = options.background;
   facts.glRenderer = context.renderer();
   facts.referenceKind = options.meshes.empty() ? "pack" : "mesh";
@@ -278,8 +323,29 @@ Result<> applySettings(const EvaluateOptions& options, GlContext& context, std::
   for (RendererPlan& plan : plans) {
     plan.settings.costs = costs;
     plan.settings.occlusion = options.occlusion;
+    plan.settings.light = options.light;
   }
   return {};
+}
+
+// Before anything is traced.
+Result<> checkLights(const EvaluateOptions& options, const Packs& packs, const std::vector<RendererPlan>& plans) {
+  std::vector<Light> lights = {options.light};
+  for (const Sun& sun : skySuns(options.suns)) lights.push_back({LightKind::sun, sun});
+  for (const RendererPlan& plan : plans) {
+    if (plan.name == kOctahedral && options.light.kind == LightKind::headlight)
+      return fail(ErrorKind::invalidArgument, "--light headlight: frames of an octahedral impostor hold a sun's light");
+    const PackFile& pack = packs.of(plan);
+    for (const Light& light : lights) FARCELL_TRY(checkLight(light, pack.directory().model.settings, pack.path()));
+  }
+  return {};
+}
+
+// The sun is the same for all packs: that of the one evaluated, if no other is asked for.
+Light resolvedLight(const EvaluateOptions& options, const PackFile& pack) {
+  Light light = options.light;
+  if (light.kind == LightKind::sun && !light.sun) light.sun = pack.directory().model.settings.sun;
+  return light;
 }
 
 Result<> makeDirectory(const std::filesystem::path& path) {
@@ -302,12 +368,14 @@ bool hasFrames(const std::vector<PathEntry>& paths) {
 
 }  // namespace
 
-Result<> evaluate(const EvaluateOptions& options) {
+Result<> evaluate(EvaluateOptions options) {
   FARCELL_TRY(checkReferenceSamples(options.referenceSamples));
   FARCELL_ASSIGN(const std::vector<OtherPack> others, parseOtherPacks(options.against));
   FARCELL_ASSIGN(std::vector<RendererPlan> plans, makePlans(options, others));
   FARCELL_ASSIGN(const Packs packs, Packs::open(options.pack, others));
   const PackFile& pack = packs.own();
+  options.light = resolvedLight(options, pack);
+  FARCELL_TRY(checkLights(options, packs, plans));
   FARCELL_ASSIGN(std::vector<Camera> cameras, loadCameras(options, pack.directory().model));
   FARCELL_ASSIGN(std::vector<Path> paths, loadPaths(options, pack));
   FARCELL_TRY(makeDirectory(options.output));
@@ -329,10 +397,12 @@ Result<> evaluate(const EvaluateOptions& options) {
           std::move(stems),
           reportFacts(options, packs, context),
           {},
+          {},
           {}};
   const Result<> measured = measureAll(run, progress);
   run.facts.complete = measured.has_value();
   setRatios(run.entries);
+  for (SunEntries& under : run.sunEntries) setRatios(under.entries);
   if (measured || !run.entries.empty() || hasFrames(run.pathEntries)) FARCELL_TRY(writeReport(run));
   return measured;
 }

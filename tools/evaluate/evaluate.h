@@ -2,8 +2,10 @@
 // 1. open packs, cameras and (asked for) the original mesh, whose hash must be the pack's (reference/);
 // 2. per camera: trace the reference, then draw with every renderer of the plan (plan/), measure each picture
 //    (metrics/) and time it;
-// 3. per camera path: the same frame by frame, with what changes between frames (path/);
-// 4. write report.json, report.csv, summary.csv, equal.csv, paths.csv, index.html, cameras.json and pictures (report/).
+// 3. per camera and other sun: the same, figures only (plan/suns.h);
+// 4. per camera path: the same frame by frame, with what changes between frames (path/);
+// 5. write report.json, report.csv, summary.csv, equal.csv, suns.csv, paths.csv, index.html, cameras.json and pictures
+// (report/).
 #pragma once
 
 #include <cstdint>
@@ -13,6 +15,7 @@
 
 #include "cache/base/progress.h"
 #include "cache/base/result.h"
+#include "runtime/camera/light.h"
 #include "runtime/selection/selection.h"
 #include "tools/evaluate/metrics/images.h"
 
@@ -35,6 +38,8 @@ struct EvaluateOptions {
   int referenceSamples = 64;
   SelectionSettings selection;  // level rule and triangle budget of every renderer
   bool recalibrate = false;     // machine costs, for the time budget
+  Light light;                  // of the reference and every renderer
+  int suns = 0;                 // cameras are measured under this many others too
   bool occlusion = false;       // RenderSettings::occlusion of every renderer
   double lodPixels = 1;         // geometric error of the renderer lod
   int timedFrames = 5;
@@ -46,6 +51,6 @@ struct EvaluateOptions {
 
 // An interrupt or a failure after the first camera or frame of a path leaves a report of what was finished, marked
 // incomplete, and is returned as the error it is.
-Result<> evaluate(const EvaluateOptions& options);
+Result<> evaluate(EvaluateOptions options);
 
 }  // namespace farcell

@@ -6,6 +6,7 @@
 #include "tools/evaluate/path/camera_path.h"
 #include "tools/evaluate/plan/renderers.h"
 #include "tools/evaluate/plan/sweep.h"
+#include "tools/options/light_options.h"
 
 namespace farcell {
 namespace {
@@ -17,6 +18,7 @@ struct Words {
   std::string background = "179,204,230";
   uint64_t residentMib = 1024;
   std::string occlusion = "off";
+  LightOptions light;
 };
 
 Result<> run(EvaluateOptions& options, const Words& words) {
@@ -29,6 +31,7 @@ Result<> run(EvaluateOptions& options, const Words& words) {
       Colour{static_cast<float>(background[0]), static_cast<float>(background[1]), static_cast<float>(background[2])};
   options.residentBytes = words.residentMib << 20;
   options.occlusion = words.occlusion == "on";
+  FARCELL_ASSIGN(options.light, lightOf(words.light));
   if (options.cameras.empty() && options.autoCameras == 0 && options.paths.empty())
     return fail(ErrorKind::invalidArgument, "one of --cameras, --auto-cameras and --path is needed");
   return evaluate(options);
@@ -119,6 +122,11 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--frames", options.timedFrames, "warm frames that are timed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  addLightOptions(app, words.light);
+  app.add_option("--suns", options.suns,
+                 "of a relightable pack: the cameras again under so many suns spread over the sky; figures only")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
   app.add_option("--background", words.background, "colour behind every picture, 0 to 255 each")
       ->type_name("R,G,B")
       ->capture_default_str();
@@ -145,7 +153,8 @@ int main(int argc, char** argv) {
       "Measures a pack's pictures against its full geometry.\n"
       "For each camera a reference is ray traced; each renderer's picture is compared with it and timed. The report is "
       "report.json, report.csv (a line a picture), summary.csv (a line a renderer: error, time, Pareto fronts), "
-      "equal.csv (at auto's time and at auto's error), paths.csv (a line a frame of a path), and a page with plots and "
+      "equal.csv (at auto's time and at auto's error), suns.csv (a line a picture under another sun), paths.csv (a "
+      "line a frame of a path), and a page with plots and "
       "pictures of the differences.",
       "farcell-evaluate");
   app.footer(

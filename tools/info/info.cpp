@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "cache/base/interrupt.h"
@@ -43,7 +44,8 @@ Json settingsJson(const BuildSettings& settings) {
           {"leafTriangles", settings.leafTriangles},
           {"maxLevel", settings.maxLevel},
           {"fixedLevel", settings.fixedLevel},
-          {"bakeNormals", settings.bakeNormals},
+          {"lighting", settings.lighting == Lighting::relightable ? "relightable" : "baked"},
+          {"sun", {glm::degrees(settings.sun.azimuthRad), glm::degrees(settings.sun.elevationRad)}},
           {"measure", settings.measure == Measure::off   ? "off"
                       : settings.measure == Measure::all ? "all"
                                                          : "sample"},

@@ -91,6 +91,7 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
                  "samples per pixel; with 4 or 16 cells change how they are drawn without a pop")
       ->check(CLI::IsMember({"1", "4", "16"}))
       ->capture_default_str();
+  addLightOptions(app, options.light);
   app.add_option("--background", options.background, "colour behind the model, 0 to 255 each; default: " + background)
       ->type_name("R,G,B");
   app.add_option("--resident-bytes", options.residentBytes, "how many bytes of the pack are kept on the GPU, e.g. 500M")
@@ -116,6 +117,7 @@ Result<DrawPlan> planOf(const DrawOptions& options) {
   plan.settings.width = size.width;
   plan.settings.height = size.height;
   plan.settings.samplesPerPixel = options.samples;
+  FARCELL_ASSIGN(plan.settings.light, lightOf(options.light));
   if (!options.background.empty()) {
     FARCELL_ASSIGN(plan.background, parseColour("--background", options.background));
   }

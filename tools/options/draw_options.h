@@ -10,6 +10,7 @@
 #include "cache/base/result.h"
 #include "cache/schema/model.h"
 #include "runtime/renderer.h"
+#include "tools/options/light_options.h"
 
 namespace farcell {
 
@@ -29,6 +30,7 @@ struct DrawOptions {
   double texelPixels = kTexelPixels;
   double meshPixels = kMeshPixels;
   int samples = 4;
+  LightOptions light;
   std::string background;  // empty: the program's own
   std::string residentBytes = "1G";
 };

@@ -22,6 +22,8 @@ std::string renderCommand(const DrawOptions& options, const RenderSettings& sett
   if (settings.selection.timeBudgetMs > 0)
     command += fmt::format(" --time-budget-ms {}", settings.selection.timeBudgetMs);
   if (settings.show != Show::picture) command += fmt::format(" --show {}", showName(settings.show));
+  if (settings.light.kind == LightKind::headlight) command += " --light headlight";
+  if (settings.light.kind == LightKind::sun && settings.light.sun) command += " --sun " + sunText(*settings.light.sun);
   if (!options.background.empty()) command += " --background " + options.background;
   return command;
 }

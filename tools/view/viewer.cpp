@@ -51,6 +51,23 @@ std::string captureName(const PackFile& pack) {
                      fmt::localtime(std::chrono::system_clock::to_time_t(now)), sinceEpoch.count() % 1000);
 }
 
+constexpr double kSunStepRad = std::numbers::pi / 36;
+
+// Around the model and upwards, radians.
+glm::dvec2 sunStepOf(Command command) {
+  if (command == Command::sunLeft) return {-kSunStepRad, 0};
+  if (command == Command::sunRight) return {kSunStepRad, 0};
+  if (command == Command::sunHigher) return {0, kSunStepRad};
+  if (command == Command::sunLower) return {0, -kSunStepRad};
+  return glm::dvec2(0);
+}
+
+// The sun stands where it stood.
+Light nextLight(Light light) {
+  light.kind = light.kind == LightKind::sun ? LightKind::headlight : LightKind::sun;
+  return light;
+}
+
 Backdrop backdropOf(const DrawPlan& plan) {
   return plan.background ? Backdrop{*plan.background, *plan.background, *plan.background} : kSky;
 }
@@ -59,6 +76,7 @@ Backdrop backdropOf(const DrawPlan& plan) {
 
 Result<Viewer> Viewer::open(const ViewOptions& options, const DrawPlan& plan) {
   FARCELL_ASSIGN(PackFile pack, PackFile::open(options.pack));
+  FARCELL_TRY(checkLight(plan.settings.light, pack.directory().model.settings, pack.path()));
   FARCELL_ASSIGN(const Camera camera,
                  chooseCamera(options, pack.directory().model, plan.settings.width, plan.settings.height));
   FARCELL_ASSIGN(Window window, Window::open({.title = "farcell",
@@ -151,6 +169,9 @@ void Viewer::obey(Command command) {
   if (command == Command::quit) quit_ = true;
   if (command == Command::nextMode) settings_.selection.mode = nextMode(settings_.selection.mode);
   if (command == Command::nextKind) settings_.kind = nextKind(settings_.kind);
+  if (command == Command::nextLight) setLight(nextLight(settings_.light));
+  if (const glm::dvec2 step = sunStepOf(command); step != glm::dvec2(0))
+    setLight(movedSun(settings_.light, scene_.pack->directory().model.settings, step.x, step.y));
   if (command == Command::capture) saveCapture();
   if (command == Command::help) std::fputs(keyHelp().c_str(), stdout);
   std::fflush(stdout);
@@ -168,9 +189,18 @@ void Viewer::openDropped(const std::filesystem::path& path) {
   auto scene = openScene(std::move(*pack), *camera, window_.context(), residentBytes_);
   if (!scene) return report(scene.error().message);
   std::swap(scene_, *scene);
+  if (!checkLight(settings_.light, scene_.pack->directory().model.settings, path)) settings_.light = {};
   options_.pack = path;
   problem_.clear();
   fitSize();
+  stale_ = true;
+}
+
+// A pack of baked light keeps its sun, and says so.
+void Viewer::setLight(const Light& light) {
+  const auto possible = checkLight(light, scene_.pack->directory().model.settings, scene_.pack->path());
+  if (!possible) return report(possible.error().message);
+  settings_.light = light;
   stale_ = true;
 }
 

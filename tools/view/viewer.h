@@ -43,6 +43,7 @@ class Viewer {
   void obey(Command command);
   void openDropped(const std::filesystem::path& path);
   void saveCapture();
+  void setLight(const Light& light);
   bool visible() const;
   // Draws what the camera sees and shows it; the milliseconds that took.
   Result<double> drawFrame(const Camera& camera, FrameStats& stats);

@@ -7,7 +7,36 @@
 namespace farcell {
 
 // By their place on a US keyboard, so that WASD lie together on any.
-enum class Key { other, a, d, e, f, h, k, m, p, q, s, w, one, two, three, four, five, six, tab, home, escape, f1, f12 };
+enum class Key {
+  other,
+  a,
+  d,
+  e,
+  f,
+  h,
+  k,
+  l,
+  m,
+  p,
+  q,
+  s,
+  w,
+  one,
+  two,
+  three,
+  four,
+  five,
+  six,
+  left,
+  right,
+  up,
+  down,
+  tab,
+  home,
+  escape,
+  f1,
+  f12
+};
 enum class MouseButton { left, right, middle };
 
 enum class EventKind {

@@ -29,13 +29,16 @@ struct Window::Platform : GlContext::Platform {
 
 namespace {
 
-constexpr std::array<std::pair<int, Key>, 22> kKeys = {
-    {{GLFW_KEY_A, Key::a},   {GLFW_KEY_D, Key::d},     {GLFW_KEY_E, Key::e},       {GLFW_KEY_F, Key::f},
-     {GLFW_KEY_H, Key::h},   {GLFW_KEY_K, Key::k},     {GLFW_KEY_M, Key::m},       {GLFW_KEY_P, Key::p},
-     {GLFW_KEY_Q, Key::q},   {GLFW_KEY_S, Key::s},     {GLFW_KEY_W, Key::w},       {GLFW_KEY_1, Key::one},
-     {GLFW_KEY_2, Key::two}, {GLFW_KEY_3, Key::three}, {GLFW_KEY_4, Key::four},    {GLFW_KEY_5, Key::five},
-     {GLFW_KEY_6, Key::six}, {GLFW_KEY_TAB, Key::tab}, {GLFW_KEY_HOME, Key::home}, {GLFW_KEY_ESCAPE, Key::escape},
-     {GLFW_KEY_F1, Key::f1}, {GLFW_KEY_F12, Key::f12}}};
+constexpr std::array<std::pair<int, Key>, 27> kKeys = {
+    {{GLFW_KEY_A, Key::a},           {GLFW_KEY_D, Key::d},         {GLFW_KEY_E, Key::e},
+     {GLFW_KEY_F, Key::f},           {GLFW_KEY_H, Key::h},         {GLFW_KEY_K, Key::k},
+     {GLFW_KEY_L, Key::l},           {GLFW_KEY_M, Key::m},         {GLFW_KEY_P, Key::p},
+     {GLFW_KEY_Q, Key::q},           {GLFW_KEY_S, Key::s},         {GLFW_KEY_W, Key::w},
+     {GLFW_KEY_1, Key::one},         {GLFW_KEY_2, Key::two},       {GLFW_KEY_3, Key::three},
+     {GLFW_KEY_4, Key::four},        {GLFW_KEY_5, Key::five},      {GLFW_KEY_6, Key::six},
+     {GLFW_KEY_LEFT, Key::left},     {GLFW_KEY_RIGHT, Key::right}, {GLFW_KEY_UP, Key::up},
+     {GLFW_KEY_DOWN, Key::down},     {GLFW_KEY_TAB, Key::tab},     {GLFW_KEY_HOME, Key::home},
+     {GLFW_KEY_ESCAPE, Key::escape}, {GLFW_KEY_F1, Key::f1},       {GLFW_KEY_F12, Key::f12}}};
 
 Key keyOf(int code) {
   for (const auto& [number, key] : kKeys)

@@ -143,6 +143,11 @@ TEST_F(LyingDirectory, IsRefusedForItsSettings) {
     expectRefused(
         "unit", [&](Directory& d) { d.model.settings.metresPerUnit = unit; }, "a unit");
   expectRefused(
+      "lighting", [](Directory& d) { d.model.settings.lighting = static_cast<Lighting>(2); }, "a lighting of 0 or 1");
+  for (const Sun& sun : {Sun{7, 0}, Sun{0, -1.6}, Sun{NAN, 0}, Sun{0, INFINITY}})
+    expectRefused(
+        "sun", [&](Directory& d) { d.model.settings.sun = sun; }, "a sun");
+  expectRefused(
       "simplifier", [](Directory& d) { d.model.settings.simplifier = static_cast<Simplifier>(2); }, "simplifier");
   expectRefused(
       "budget rule", [](Directory& d) { d.model.settings.budgetRule = static_cast<BudgetRule>(2); }, "budget rule");

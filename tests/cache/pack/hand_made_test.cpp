@@ -89,10 +89,10 @@ Bytes viewPage(uint32_t second) {
   Text page;
   page.u32({2, 5});
   page.u32({0}).number(3, 2).number(4, 2).number(3, 2).number(1, 2);
-  page.u32({kF32MinusOne, kF32One, 0x10000000u | 2u << 4 | 5u << 16, begin, first.size()});
+  page.u32({kF32MinusOne, kF32One, 0x10000000u | 2u << 3 | 5u << 12, begin, first.size()});
   // Filters: A left (2), G left (2), R and B none, depth average (3).
   page.u32({second}).number(0, 2).number(0, 2).number(2, 2).number(1, 2);
-  page.u32({0, 0, 2u | 2u << 4 | 3u << 16, begin + first.size(), other.size()});
+  page.u32({0, 0, 2u | 2u << 3 | 3u << 12, begin + first.size(), other.size()});
   return page.append(first).append(other).bytes;
 }
 
@@ -102,7 +102,9 @@ void appendPage(Text& pack, const Bytes& page, std::vector<std::pair<uint64_t, u
   places.emplace_back(offset, hashBytes(std::span(pack.bytes).subspan(offset)));
 }
 
-Bytes settings() { return Text().u32({42, 16, 1, 10, 2, 0xffffffff, 2, 0x100}).u64({kF64Two, 0, 0, 0}).bytes; }
+Bytes settings() {
+  return Text().u32({42, 16, 1, 10, 2, 0xffffffff, 2, 0x100}).u64({kF64Two, 0, 0, 0, kF64One, 0}).bytes;
+}
 
 Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
                 const std::vector<std::pair<uint64_t, uint64_t>>& places) {
@@ -158,6 +160,8 @@ TEST(HandMadePack, IsReadAsFormatMdSays) {
   EXPECT_EQ(found.model.grid, (Grid{glm::dvec3(0), 1, 16}));
   EXPECT_EQ(found.model.settings.metresPerUnit, 2);
   EXPECT_EQ(found.model.settings.fixedLevel, -1);
+  EXPECT_EQ(found.model.settings.lighting, Lighting::baked);
+  EXPECT_EQ(found.model.settings.sun, (Sun{1, 0}));
   EXPECT_EQ(found.model.settings.leafTriangles, 10);
   EXPECT_TRUE(found.model.hasColours && !found.model.hasNormals);
   EXPECT_EQ(found.report.skipped, (std::map<std::string, uint64_t>{{"zeroArea", 9}}));

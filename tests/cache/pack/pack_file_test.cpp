@@ -154,7 +154,7 @@ void writeSmallPack(const std::filesystem::path& path) {
   directory.model.settings.views = 12;
   directory.model.settings.imageSize = 16;
   directory.model.hasColours = directory.model.hasNormals = true;
-  directory.model.settings.bakeNormals = true;
+  directory.model.settings.lighting = Lighting::relightable;
   directory.sourceName = "a";
   directory.cells.resize(1);
   directory.cells[0].content = {GridPoint(0), GridPoint(5, 5, 0)};

@@ -58,7 +58,7 @@ inline ViewImage randomView(std::mt19937& random, uint32_t view, uint32_t imageS
   image.depthMax = image.depthMin + static_cast<float>(below(random, 1000)) / 500.0f;
   for (uint32_t y = 0; y < image.height; ++y) {
     for (uint32_t x = 0; x < image.width; ++x) {
-      for (uint32_t channel = 0; channel < (normals ? 7u : 5u); ++channel) {
+      for (uint32_t channel = 0; channel < (normals ? 8u : 5u); ++channel) {
         uint32_t value = static_cast<uint32_t>(random());
         if (kind == 1) value = x * (channel + 1) + y * 2 + value % 2;
         if (kind == 2) value = (x / 5 + y / 7) % 3 * 80;
@@ -133,7 +133,8 @@ inline Directory fullDirectory() {
                     .fixedLevel = 1,
                     .up = UpAxis::y,
                     .metresPerUnit = 0.0254,
-                    .bakeNormals = true};
+                    .lighting = Lighting::relightable,
+                    .sun = {-1.5, 0.25}};
   model.hasNormals = model.hasColours = true;
   directory.sourceName = "city \xc3\xa4.ply";
   directory.sourceHash = 0x0123456789abcdef;

@@ -51,5 +51,26 @@ TEST(ViewMips, eachLevelIsTheMeanOfTheImageBelow) {
   }
 }
 
+TEST(ViewMips, normalsArePremultipliedAsColoursAreAndHalvedAlike) {
+  ViewImage view = randomView(2, 4, 2, 2);
+  // Along x, full length, half covered; along -y, half of it; two that are not there.
+  view.rgba = {0, 0, 0, 128, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0};
+  view.normal = {255, 128, 255, 128, 0, 128, 0, 0, 0, 0, 0, 0};
+  const auto levels = buildNormalMips(view, 16);
+  ASSERT_EQ(static_cast<int>(levels.size()), mipLevelCount(16));
+  const auto expectAt = [&](size_t level, size_t texel, int x, int y, int z) {
+    const int8_t* found = &levels[level][4 * texel];
+    EXPECT_NEAR(found[0], x, 1) << level;
+    EXPECT_NEAR(found[1], y, 1) << level;
+    EXPECT_NEAR(found[2], z, 1) << level;
+  };
+  expectAt(0, 4 * 16 + 2, 64, 0, 0);
+  expectAt(0, 4 * 16 + 3, 0, -64, 0);
+  expectAt(0, 5 * 16 + 2, 0, 0, 0);
+  expectAt(0, 0, 0, 0, 0);
+  expectAt(1, 2 * 8 + 1, 16, -16, 0);
+  expectAt(2, 1 * 4 + 0, 4, -4, 0);
+}
+
 }  // namespace
 }  // namespace farcell

@@ -29,7 +29,7 @@ ViewImage bakedLike(std::mt19937& random, uint32_t index, bool normals) {
     for (uint32_t k = 0; k < 4; ++k)
       view.rgba[4 * i + k] = static_cast<uint8_t>(k == 3 ? alpha : light * (4 - k) / 4 * alpha / 255);
     if (inside < 0) view.depth[i] = 0;
-    for (uint32_t k = 0; normals && k < 2; ++k) view.normal[2 * i + k] = alpha > 0 ? static_cast<uint8_t>(x + y) : 0;
+    for (uint32_t k = 0; normals && k < 3; ++k) view.normal[3 * i + k] = alpha > 0 ? static_cast<uint8_t>(x + y) : 0;
   }
   return view;
 }
@@ -79,7 +79,7 @@ std::vector<std::vector<int>> plainPlanes(std::span<const uint8_t> bytes, size_t
   };
   size_t used = 2;
   for (size_t p = 0; p < planeCount; ++p) {
-    const uint32_t filter = coding >> (4 * p) & 15;
+    const uint32_t filter = coding >> (3 * p) & 7;
     std::vector<int> counts(texels);  // what each texel counts as for its neighbours
     for (size_t i = 0; i < texels; ++i) {
       const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width, alpha = planes[0][i];
@@ -158,7 +158,7 @@ TEST(ViewPageCoding, LetsADecoderOfItsOwnReadEachViewAlone) {
       EXPECT_EQ(plainlyDecoded(bytes, i), page.views[i]) << i;
       const uint32_t coding = number(bytes, kPageHeaderBytes + i * kViewHeaderBytes + 20, 4);
       arrangements.insert(coding >> 28);
-      for (uint32_t plane = 0; plane < 7; ++plane) filters.insert(coding >> (4 * plane) & 15);
+      for (uint32_t plane = 0; plane < 8; ++plane) filters.insert(coding >> (3 * plane) & 7);
     }
   }
   EXPECT_EQ(arrangements, (std::set<uint32_t>{0, 1}));
@@ -328,7 +328,7 @@ TEST(ViewPageCoding, TakesNoBytesForConstantChannelsAndEmptyTexels) {
   std::fill(full.depth.begin(), full.depth.end(), uint8_t{0});
   EXPECT_EQ(encodeView(full).coding >> 28, 1u);
   // Coverage alone: all other channels are constant where it is not 0.
-  EXPECT_EQ(encodeView(full).coding & ~15u, 0x10055550u);
+  EXPECT_EQ(encodeView(full).coding & ~7u, 0x10005b68u);
 }
 
 // 1280 equal views of 1024 x 1024 constant texels would be gigabytes out of some kilobytes.
@@ -390,7 +390,8 @@ TEST(ViewPageCoding, RefusesHeadersThatLie) {
   const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
   for (const size_t field : {12u, 16u}) EXPECT_TRUE(refused(header + field, 4, nan)) << field;
   EXPECT_TRUE(refused(header + 16, 4, std::bit_cast<uint32_t>(-2.0f)));
-  for (const uint32_t coding : {0x20000000u, 0x00000005u, 0x10000006u, 0x10100000u, 0x00060000u})
+  for (const uint32_t coding :
+       {0x20000000u, 0x00000005u, 0x10000006u, 0x10000000u | 1u << 15, 6u << 12, 1u << 24, 1u << 27})
     EXPECT_TRUE(refused(header + 20, 4, coding)) << coding;
   for (const size_t field :
        {header + 24, header + 28, header + kViewHeaderBytes + 24, header + kViewHeaderBytes + 28}) {

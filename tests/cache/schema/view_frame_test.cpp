@@ -78,6 +78,19 @@ TEST(Model, UpAndSunAreUnitVectorsAndTheSunStandsAboveTheHorizon) {
   }
 }
 
+// To the bit: packs and pictures of no sun in particular stay what they were.
+TEST(Model, TheSunUnlessToldOtherwiseIsTheDirectionSixFiveSeven) {
+  const glm::vec3 expected(glm::normalize(glm::dvec3(0.6, 0.5, 0.7)));
+  EXPECT_EQ(sunDirection(UpAxis::z), expected);
+  EXPECT_EQ(sunText({}), "39.8056,41.8685");
+}
+
+TEST(Model, ASunIsTwoNumbersWithinATurnAndAQuarter) {
+  for (const Sun& sun : {Sun{}, Sun{6.28, -1.57}, Sun{-6.28, 0}}) EXPECT_TRUE(isSun(sun));
+  for (const Sun& sun : {Sun{6.29, 0}, Sun{0, 1.58}, Sun{NAN, 0}, Sun{0, NAN}, Sun{-INFINITY, 0}})
+    EXPECT_FALSE(isSun(sun));
+}
+
 TEST(Model, TheSunOfTurnedAxesIsTheTurnedSun) {
   const glm::vec3 z = sunDirection(UpAxis::z), x = sunDirection(UpAxis::x), y = sunDirection(UpAxis::y);
   for (int axis = 0; axis < 3; ++axis) {

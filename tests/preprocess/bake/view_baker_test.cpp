@@ -13,11 +13,11 @@ namespace {
 
 const glm::dvec3 kAskew = glm::normalize(glm::dvec3(.48, -.6, .64));
 
-BakeSettings settingsOf(int imageSize, int samples, bool normals = false) {
+BakeSettings settingsOf(int imageSize, int samples, bool relightable = false) {
   BakeSettings settings;
   settings.imageSize = imageSize;
   settings.samples = samples;
-  settings.normals = normals;
+  settings.relightable = relightable;
   settings.sun = glm::normalize(glm::vec3(.3f, .4f, .8f));
   return settings;
 }
@@ -133,6 +133,36 @@ TEST(ViewBakerNormals, TheBakedNormalIsTheFacesOwnOnTheViewersSide) {
   }
 }
 
+TEST(ViewBakerNormals, ColourIsAlbedoWhateverTheSun) {
+  const ViewFrame frame = viewFrame(kAskew);
+  CellSoup soup;
+  addFacing(soup, frame, -.5, -.5, .5, .5, .25, 0x336699);  // large: of a colour plane
+  BakeSettings settings = settingsOf(32, 16, true);
+  settings.sun = glm::vec3(kAskew);
+  const BakedPair one = bake(soup, frame, settings);
+  settings.sun = glm::vec3(1, 0, 0);
+  expectSame(bake(soup, frame, settings), one);
+  const auto rgba = rgbaAt(one.view, 16, 16);
+  EXPECT_FLOAT_EQ(rgba[0], 0x99 / 255.0f);
+  EXPECT_FLOAT_EQ(rgba[1], 0x66 / 255.0f);
+  EXPECT_FLOAT_EQ(rgba[2], 0x33 / 255.0f);
+}
+
+// A roof's two sides, each in half of a texel's samples.
+TEST(ViewBakerNormals, ATexelHasTheMeanVectorOfItsSamples) {
+  const ViewFrame frame = viewFrame(kAskew);
+  const glm::vec3 right(frame.right), up(frame.up), toward(frame.toward);
+  const glm::vec3 ridge =
+      right * static_cast<float>(texelSize(32) / 2) - up * .4f + toward * .3f;  // the middle of a texel
+  CellSoup soup;
+  addRectangle(soup, ridge, .2f * (right - toward), .8f * up, 0xffffff);
+  addRectangle(soup, ridge, .2f * (-right - toward), .8f * up, 0xffffff);
+  const BakedPair pair = bake(soup, frame, settingsOf(32, 16, true));
+  const size_t at = 3 * (size_t(16 - pair.view.y0) * size_t(pair.view.width) + size_t(16 - pair.view.x0));
+  const glm::vec3 mean(pair.view.normal[at], pair.view.normal[at + 1], pair.view.normal[at + 2]);
+  EXPECT_LT(glm::length(mean - toward * std::sqrt(.5f)), 1e-3) << mean.x << ' ' << mean.y << ' ' << mean.z;
+}
+
 TEST(ViewBakerCoverage, ATexelCoveredByHalfHasHalfItsColourAndHalfCoverage) {
   const ViewFrame frame = viewFrame(glm::dvec3(0, 0, 1));
   const double texel = texelSize(32);
@@ -185,8 +215,8 @@ TEST(ViewBakerAntipode, IsTheViewBakedFromTheOtherSideBitForBit) {
   const CellSoup flat = randomSoup(21, 800), smooth = withVertexNormals(flat);
   const auto viewpoints = Viewpoints::create(42);
   for (const int samples : {1, 4, 16, 64}) {
-    for (const bool normals : {false, true}) {
-      const BakeSettings settings = settingsOf(33, samples, normals);
+    for (const bool relightable : {false, true}) {
+      const BakeSettings settings = settingsOf(33, samples, relightable);
       for (size_t i = 0; i < 42; i += 9) {
         const glm::dvec3 direction = viewpoints->directions()[i];
         for (const CellSoup* soup : {&flat, &smooth}) {

@@ -121,7 +121,7 @@ int distance(const ViewImage& a, const ViewImage& b) {
 TEST_F(BuildPack, ViewsAreNoFartherFromWhatWasBakedThanTheirError) {
   const auto mesh = write("sphere.obj", sphereObj(20, 3, glm::dvec3(1e6, -2e6, 5)));
   BuildOptions options = smallLeaves();
-  options.settings.bakeNormals = true;
+  options.settings.lighting = Lighting::relightable;
   ASSERT_TRUE(build(mesh, "exact.far", options));
   options.settings.viewError = 3;
   ASSERT_TRUE(build(mesh, "near.far", options));

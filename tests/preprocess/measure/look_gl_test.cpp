@@ -44,7 +44,7 @@ FrameImage drawnFromAfar(DrawnPack& drawn, glm::dvec3 toward, int edge, Impostor
 
 class CpuViews {
  public:
-  explicit CpuViews(const PackFile& pack) {
+  CpuViews(const PackFile& pack, glm::vec3 light) : light_(light) {
     const Directory& directory = pack.directory();
     const CellRecord& cell = directory.cells[0];
     for (uint32_t page = cell.firstViewPage; page < cell.firstViewPage + cell.viewPageCount; ++page) {
@@ -63,16 +63,17 @@ class CpuViews {
     if (kind == ImpostorKind::depthCorrected) {
       const auto [first, second] = viewpoints().nearestTwo(toward);
       const std::array<WeightedView, 2> two = {WeightedView{&at(first), 0}, WeightedView{&at(second), 0}};
-      return impostorPicture(content_, two, toward, edge);
+      return impostorPicture(content_, two, toward, light_, edge);
     }
     const auto triple = viewpoints().nearestThree(toward);
     std::array<WeightedView, 3> three;
     for (size_t i = 0; i < 3; ++i) three[i] = {&at(triple.views[i]), triple.weights[i]};
-    return impostorPicture(content_, three, toward, edge);
+    return impostorPicture(content_, three, toward, light_, edge);
   }
 
  private:
   const ViewTexels& at(int view) const { return texels_.at(static_cast<uint32_t>(view)); }
+  const glm::vec3 light_;
   std::map<uint32_t, ViewTexels> texels_;
   LocalBox content_;
 };
@@ -97,9 +98,11 @@ Apart apart(const FrameImage& gl, const Picture& cpu) {
   return result;
 }
 
-TEST(Look, showsTheSameOnTheCpuAsInTheRenderer) {
-  DrawnPack drawn = openDrawn(scene(), {.level = 0, .imageSize = 64});
-  const CpuViews views(*drawn.pack);
+class Look : public testing::TestWithParam<Lighting> {};
+
+TEST_P(Look, showsTheSameOnTheCpuAsInTheRenderer) {
+  DrawnPack drawn = openDrawn(scene(), {.level = 0, .imageSize = 64, .lighting = GetParam()});
+  const CpuViews views(*drawn.pack, sunDirection(UpAxis::z));
   for (const glm::dvec3 direction :
        {glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(-0.7, 0.2, 0.3), glm::dvec3(0.1, -0.9, -0.4)}) {
     const glm::dvec3 toward = glm::normalize(direction);
@@ -117,6 +120,8 @@ TEST(Look, showsTheSameOnTheCpuAsInTheRenderer) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Packs, Look, testing::Values(Lighting::baked, Lighting::relightable));
 
 }  // namespace
 }  // namespace farcell

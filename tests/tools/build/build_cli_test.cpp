@@ -61,6 +61,19 @@ TEST_F(BuildProgram, TakesUpAndUnitFromTheCommandLineElseFromTheModel) {
   EXPECT_EQ(modelOf("a.off --unit 2.5")["metresPerUnit"], 2.5);
 }
 
+TEST_F(BuildProgram, TakesLightingAndSun) {
+  const auto settingsOf = [&](const std::string& arguments) {
+    const Outcome built = run("farcell-build", "a.off -o x.far --quiet --views 12 --image-size 16 " + arguments);
+    EXPECT_EQ(built.code, 0) << built.err;
+    return Json::parse(run("farcell-info", "--json x.far").out, nullptr, false)["settings"];
+  };
+  EXPECT_EQ(settingsOf("")["lighting"], "baked");
+  const Json told = settingsOf("--lighting relightable --sun -120,30");
+  EXPECT_EQ(told["lighting"], "relightable");
+  EXPECT_NEAR(told["sun"][0].get<double>(), -120, 1e-9);
+  EXPECT_NEAR(told["sun"][1].get<double>(), 30, 1e-9);
+}
+
 TEST_F(BuildProgram, BuildsSeveralFilesAsOneModel) {
   const Outcome built = run("farcell-build", "a.off b.obj -o x.far --json --quiet");
   ASSERT_EQ(built.code, 0) << built.err;
@@ -91,6 +104,8 @@ TEST_F(BuildProgram, SaysWhichFileIsWrongAndLeavesNoPack) {
   EXPECT_EQ(run("farcell-build", "a.off -o x.far --up w").code, 2);
   EXPECT_EQ(run("farcell-build", "a.off -o x.far --unit parsec").code, 2);
   EXPECT_EQ(run("farcell-build", "-o x.far").code, 2);
+  EXPECT_EQ(run("farcell-build", "a.off -o x.far --lighting none").code, 2);
+  EXPECT_EQ(run("farcell-build", "a.off -o x.far --sun 0,91").code, 2);
 }
 
 }  // namespace

@@ -35,14 +35,36 @@ TEST(ParseCount, TakesPlainNumbersAndDecimalFactors) {
 }
 
 TEST(ParseBytes, TakesPlainNumbersAndPowersOf1024) {
-  const std::vector<std::pair<std::string, uint64_t>> sizes = {
-      {"0", 0}, {"1234", 1234}, {"4k", 4096}, {"4K", 4096}, {"512M", 512u << 20}, {"2G", uint64_t{2} << 30},
-      {"1.5G", uint64_t{3} << 29}, {"3T", uint64_t{3} << 40}};
+  const std::vector<std::pair<std::string, uint64_t>> sizes = {{"0", 0},
+                                                               {"1234", 1234},
+                                                               {"4k", 4096},
+                                                               {"4K", 4096},
+                                                               {"512M", 512u << 20},
+                                                               {"2G", uint64_t{2} << 30},
+                                                               {"1.5G", uint64_t{3} << 29},
+                                                               {"3T", uint64_t{3} << 40}};
   for (const auto& [text, bytes] : sizes) EXPECT_EQ(parseBytes(text).value_or(7), bytes) << text;
   for (const std::string text : {"", "M", "-1", "5 M", "5MB", "5m", "5P", "nan", "inf", "1e19", "five", "2GG"}) {
     const auto parsed = parseBytes(text);
     ASSERT_FALSE(parsed) << text;
     EXPECT_NE(parsed.error().message.find("'" + text + "'"), std::string::npos) << parsed.error().message;
+  }
+}
+
+TEST(ParseSun, TakesTwoAnglesInDegreesAndRefusesEverythingElse) {
+  const auto sun = parseSun("--sun", "-120.5,30");
+  ASSERT_TRUE(sun);
+  EXPECT_NEAR(sun->azimuthRad, -2.1031217, 1e-6);
+  EXPECT_NEAR(sun->elevationRad, 0.5235988, 1e-6);
+  EXPECT_TRUE(parseSun("--sun", "360,-90"));
+  for (const std::string text :
+       {"", ",", "1", "1,", ",1", "1,2,3", "1;2", "1, 2", "361,0", "0,91", "nan,0", "0,inf", "1e3,0", "a,b", "1,2x"}) {
+    const auto parsed = parseSun("--sun", text);
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_EQ(parsed.error().kind, ErrorKind::invalidArgument);
+    EXPECT_NE(parsed.error().message.find(
+                  fmt::format("--sun: expected AZIMUTH,ELEVATION of -360 to 360 and -90 to 90, found '{}'", text)),
+              std::string::npos);
   }
 }
 

@@ -151,6 +151,40 @@ TEST_F(EvaluateProgram, SaysWhatIsWrongWithTheRightExitCode) {
   EXPECT_FALSE(std::filesystem::exists(path("report/report.json")));
 }
 
+TEST_F(EvaluateProgram, ReferenceAndRenderersAreLitAlikeAndTheReportSaysBy) {
+  testing::TestModel model = testing::sphereModel({100, 200, 300}, 10, 4);
+  model.lighting = Lighting::relightable;
+  testing::writeTestPack(model, path("relightable.far"), 1);
+  const std::string common =
+      "relightable.far --cameras cameras.json --size 120x90 --frames 1 --renderers full-16spp -o ";
+  ASSERT_EQ(run(common + "report --sun 200,-20 --suns 2"), 0) << textOf(path("stderr"));
+  EXPECT_EQ(report().at("light").at("text"), "sun 200,-20");
+  ASSERT_EQ(report().at("suns").size(), 2u);
+  for (const Json& sun : report().at("suns"))
+    EXPECT_LT(sun.at("renderers").at("full-16spp").at("ratioToFull1spp"), 0.5) << sun;
+  EXPECT_EQ(textOf(path("report/suns.csv")).find("azimuthDeg,elevationDeg,camera,"), 0u);
+  for (const Json& entry : report().at("entries"))
+    if (entry.at("renderer") == "full-16spp") {
+      EXPECT_GT(entry.at("psnr"), 38);
+    }
+
+  ASSERT_EQ(run(common + "report --light headlight"), 0) << textOf(path("stderr"));
+  EXPECT_EQ(report().at("light").at("text"), "headlight");
+  EXPECT_TRUE(report().at("light").at("sun").is_null());
+  for (const Json& entry : report().at("entries"))
+    if (entry.at("renderer") == "full-16spp") {
+      EXPECT_GT(entry.at("psnr"), 38);
+    }
+}
+
+TEST_F(EvaluateProgram, RefusesAnotherLightThanABakedPacksBeforeAnyWork) {
+  for (const std::string light : {"--light headlight", "--sun 10,10", "--suns 3"}) {
+    EXPECT_EQ(run("sphere.far --cameras cameras.json --size 120x90 -o report " + light), 2) << light;
+    EXPECT_NE(textOf(path("stderr")).find("--lighting relightable"), std::string::npos) << textOf(path("stderr"));
+    EXPECT_FALSE(std::filesystem::exists(path("report"))) << light;
+  }
+}
+
 TEST_F(EvaluateProgram, ACameraThatSeesNothingIsReportedButDoesNotCount) {
   writeCameras(R"({"name":"away","position":[140,210,310],"target":[180,220,320],"up":[0,0,1],"fovYDeg":40},
                   {"name":"here","position":[140,210,310],"target":[100,200,300],"up":[0,0,1],"fovYDeg":40})");

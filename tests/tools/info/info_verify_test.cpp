@@ -61,7 +61,7 @@ TEST(FarcellInfo, PrintsTheContractAndTheModelOfAPack) {
   EXPECT_EQ(json["model"]["up"], "y");
   EXPECT_EQ(json["model"]["metresPerUnit"], 0.0254);
   EXPECT_EQ(json["settings"]["views"], 42);
-  EXPECT_EQ(json["settings"]["bakeNormals"], true);
+  EXPECT_EQ(json["settings"]["lighting"], "relightable");
   EXPECT_EQ(json["settings"]["viewError"], 0);
   EXPECT_EQ(json["levels"], Json::parse(R"([
     {"level":0,"leaf":0,"inner":1,"triangles":0,"meshTriangles":0,"geometricErrorMetres":0.0},

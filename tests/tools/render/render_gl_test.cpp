@@ -54,6 +54,17 @@ TEST_F(RenderProgram, drawsAnOverviewOverTheBackground) {
   EXPECT_GT(figures["frames"][0]["bytesRead"].get<uint64_t>(), 0u);
 }
 
+TEST_F(RenderProgram, refusesAnotherLightThanThatOfABakedPack) {
+  for (const std::string light : {"--light headlight", "--sun 120,30", "--sun 0", "--sun 1,2 --light headlight"}) {
+    EXPECT_EQ(run("a.far --size 64x48 -o a.png " + light), 2) << light;
+    EXPECT_FALSE(text("err").empty()) << light;
+  }
+  ASSERT_TRUE(writeSyntheticPack(directory_ / "b.far", sphereTriangles({100, 0, 0}, 5, 3, 0x00ffffff),
+                                 {.level = 1, .views = 12, .imageSize = 32, .lighting = Lighting::relightable}));
+  EXPECT_EQ(run("b.far --size 64x48 -o b.png --light headlight"), 0) << text("err");
+  EXPECT_EQ(run("b.far --size 64x48 -o b.png --sun 120,30"), 0) << text("err");
+}
+
 TEST_F(RenderProgram, repeatedFramesReadThePackOnce) {
   ASSERT_EQ(run("a.far --size 64x48 --mode full --repeat 3 --json stats.json"), 0) << text("err");
   const auto figures = nlohmann::json::parse(text("stats.json"), nullptr, false);

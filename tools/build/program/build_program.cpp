@@ -29,6 +29,8 @@ struct Arguments {
   std::string budgetRule = "worth";
   std::string simplifier = "collapse";
   std::string measure = "sample";
+  std::string lighting = "baked";
+  std::string sun;  // empty: the default
   std::string up;
   std::string unit;
   bool mpi = false;
@@ -63,7 +65,15 @@ void addContentOptions(CLI::App& app, Arguments& arguments) {
          "--unit", arguments.unit,
          "length of a model unit: mm, cm, m, km, in, ft or metres as a number; default: what the scene says, else m")
       ->type_name("LENGTH");
-  app.add_flag("--normals", settings.bakeNormals, "views also keep a normal");
+  app.add_option("--lighting", arguments.lighting,
+                 "of views: baked, lit by one sun, in the fewest bytes; relightable: with normals, lit by any sun or "
+                 "headlight when they are drawn")
+      ->check(CLI::IsMember({"baked", "relightable"}))
+      ->capture_default_str();
+  app.add_option("--sun", arguments.sun,
+                 "where the sun stands, degrees: around the up axis (z up: from x towards y) and above the horizon")
+      ->type_name("AZIMUTH,ELEVATION")
+      ->default_str(sunText(settings.sun));
   app.add_option("--view-error", settings.viewError,
                  "how far a channel of a view's texel (coverage, colour, depth, normal) may be from what was baked, in "
                  "255ths, 0 to 8: more takes fewer bytes; 0: lossless")
@@ -278,6 +288,10 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   settings.measure = arguments.measure == "off"   ? Measure::off
                      : arguments.measure == "all" ? Measure::all
                                                   : Measure::sample;
+  settings.lighting = arguments.lighting == "relightable" ? Lighting::relightable : Lighting::baked;
+  if (!arguments.sun.empty()) {
+    FARCELL_ASSIGN(settings.sun, parseSun("--sun", arguments.sun));
+  }
   settings.budgetRule = arguments.budgetRule == "triangles" ? BudgetRule::triangles : BudgetRule::worth;
   FARCELL_TRY(chooseMemory(arguments));
   FARCELL_ASSIGN(const uint64_t leafTriangles, parseCount(arguments.leafTriangles));

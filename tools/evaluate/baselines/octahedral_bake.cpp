@@ -124,7 +124,7 @@ int octahedralEdgeOf(uint64_t bytes) {
   return edge;
 }
 
-Result<OctahedralViews> bakeOctahedral(const PackFile& pack, int edge) {
+Result<OctahedralViews> bakeOctahedral(const PackFile& pack, int edge, glm::vec3 sun) {
   const Model& model = pack.directory().model;
   const glm::dvec3 min = model.grid.worldFromGrid(model.bounds.min), max = model.grid.worldFromGrid(model.bounds.max);
   const glm::dvec3 half = (max - min) * 0.5;
@@ -144,7 +144,7 @@ Result<OctahedralViews> bakeOctahedral(const PackFile& pack, int edge) {
   for (int first = 0; first < kOctahedralFrames; first += kGroup) {
     std::vector<ViewBaker> bakers;
     for (int i = 0; i < kGroup; ++i) {
-      bakers.emplace_back(BakeSettings{cube, kSamples, sunDirection(model.settings.up), false});
+      bakers.emplace_back(BakeSettings{cube, kSamples, sun, false});
       bakers.back().begin(views.axes[static_cast<size_t>(first + i)]);
     }
     FARCELL_TRY(addLeaves(pack, views, bakers));

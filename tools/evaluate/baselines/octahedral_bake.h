@@ -29,8 +29,8 @@ uint64_t octahedralBytes(int edge);
 // The largest frame with which all take at most `bytes`; 16 to 1024.
 int octahedralEdgeOf(uint64_t bytes);
 
-// From the full triangles of the leaves, 16 samples a texel, streamed: a few frames are in the making at once, and the
-// leaves are read once for each such group. Ends with `cancelled` on Ctrl-C.
-Result<OctahedralViews> bakeOctahedral(const PackFile& pack, int edge);
+// Lit by the sun of that direction, from the full triangles of the leaves, 16 samples a texel, streamed: a few frames
+// are in the making at once, and the leaves are read once for each such group. Ends with `cancelled` on Ctrl-C.
+Result<OctahedralViews> bakeOctahedral(const PackFile& pack, int edge, glm::vec3 sun);
 
 }  // namespace farcell

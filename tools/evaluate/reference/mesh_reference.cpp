@@ -94,7 +94,7 @@ Result<LocalTriangles> readTriangles(MeshReader& mesh, const Directory& director
 struct MeshReference::Impl {
   EmbreeDevice device;  // outlives the scene
   TracedGeometry geometry;
-  glm::vec3 light;
+  BuildSettings settings;  // of the pack
 };
 
 MeshReference::MeshReference(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -108,8 +108,7 @@ Result<MeshReference> MeshReference::load(std::span<const std::filesystem::path>
   FARCELL_ASSIGN(LocalTriangles triangles, readTriangles(*mesh, directory, progress));
   FARCELL_ASSIGN(EmbreeDevice device, createEmbreeDevice(0));
   FARCELL_ASSIGN(TracedGeometry geometry, buildTracedGeometry(device.get(), std::move(triangles)));
-  const glm::vec3 light = sunDirection(directory.model.settings.up);
-  return MeshReference(std::make_unique<Impl>(Impl{std::move(device), std::move(geometry), light}));
+  return MeshReference(std::make_unique<Impl>(Impl{std::move(device), std::move(geometry), directory.model.settings}));
 }
 
 uint64_t MeshReference::triangles() const { return impl_->geometry.triangles.triangles.size(); }
@@ -118,7 +117,8 @@ Result<ReferenceImage> MeshReference::trace(const Camera& camera, const Referenc
   FARCELL_TRY(checkReferenceSamples(settings.samples));
   FARCELL_TRY(checkInterrupt());
   const int perAxis = static_cast<int>(std::lround(std::sqrt(settings.samples)));
-  SampleImage image(referenceView(camera, settings.width, settings.height), perAxis, impl_->light);
+  SampleImage image(referenceView(camera, settings.width, settings.height), perAxis,
+                    lightDirection(settings.light, impl_->settings, camera));
   image.trace({&impl_->geometry, 1}, threadCount(settings.threads));
   return image.finish();
 }

@@ -87,7 +87,7 @@ Result<ReferenceImage> traceReference(const PackFile& pack, const Camera& camera
   FARCELL_ASSIGN(const EmbreeDevice device, createEmbreeDevice(1));  // leaves are built side by side
   const ReferenceView view = referenceView(camera, settings.width, settings.height);
   const int perAxis = static_cast<int>(std::lround(std::sqrt(settings.samples)));
-  SampleImage image(view, perAxis, sunDirection(pack.directory().model.settings.up));
+  SampleImage image(view, perAxis, lightDirection(settings.light, pack.directory().model.settings, camera));
   const std::vector<VisibleLeaf> leaves = leavesFrontToBack(pack.directory(), view);
   for (size_t next = 0; next < leaves.size();) {
     FARCELL_TRY(checkInterrupt());

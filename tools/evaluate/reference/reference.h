@@ -17,7 +17,7 @@
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
-#include "runtime/camera/camera.h"
+#include "runtime/camera/light.h"
 #include "tools/evaluate/metrics/images.h"
 
 namespace farcell {
@@ -29,6 +29,7 @@ struct ReferenceSettings {
   int height = 720;
   int samples = kMaxReferenceSamples;  // per pixel: a square number up to 64
   int threads = 0;                     // 0: all. The picture does not depend on it
+  Light light;
 };
 
 // invalidArgument unless `samples` is a square number in [1, 64].

@@ -94,7 +94,8 @@ Json packJson(const std::string& fileName, uint64_t bytes, const Directory& dire
           {"views", settings.views},
           {"imageSize", settings.imageSize},
           {"samples", settings.samples},
-          {"leafTriangles", settings.leafTriangles}};
+          {"leafTriangles", settings.leafTriangles},
+          {"lighting", settings.lighting == Lighting::relightable ? "relightable" : "baked"}};
 }
 
 // By name; with their bytes over those of the pack that is evaluated.
@@ -107,15 +108,27 @@ Json againstJson(const ReportFacts& facts) {
   return json;
 }
 
+// Of a headlight no sun.
+Json lightJson(const ReportFacts& facts) {
+  const BuildSettings& settings = facts.directory->model.settings;
+  const bool isSun = facts.light.kind == LightKind::sun;
+  Json json = {{"text", lightText(facts.light, settings)}, {"sun", nullptr}};
+  if (isSun) {
+    const glm::vec3 sun = lightDirection(facts.light, settings, {});
+    json["sun"] = {sun.x, sun.y, sun.z};
+  }
+  json.update({{"ambient", shared::kAmbient}, {"diffuse", shared::kDiffuse}});
+  return json;
+}
+
 Json factsJson(const ReportFacts& facts) {
-  const glm::vec3 sun = sunDirection(facts.directory->model.settings.up);
   return {{"version", FARCELL_VERSION},
           {"complete", facts.complete},
           {"pack", packJson(facts.packName, facts.packBytes, *facts.directory)},
           {"against", againstJson(facts)},
           {"size", {facts.width, facts.height}},
           {"background", facts.background},
-          {"light", {{"sun", {sun.x, sun.y, sun.z}}, {"ambient", shared::kAmbient}, {"diffuse", shared::kDiffuse}}},
+          {"light", lightJson(facts)},
           {"reference",
            {{"kind", facts.referenceKind}, {"samples", facts.referenceSamples}, {"seconds", facts.referenceSeconds}}},
           {"timedFrames", facts.timedFrames},

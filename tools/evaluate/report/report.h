@@ -29,6 +29,7 @@ struct ReportFacts {
   int width = 0;
   int height = 0;
   int timedFrames = 0;
+  Light light;
   Colour background{};
   std::string glRenderer;
   std::string referenceKind;  // "pack" or "mesh"

@@ -56,8 +56,8 @@ class Extractor {
   int rows() const { return (static_cast<int>(settings_.views.size()) + columns() - 1) / columns(); }
 
   Result<> checkLimits() const {
-    if (settings_.channel == ViewChannel::normal && !directory_.model.settings.bakeNormals)
-      return fail(ErrorKind::unsupported, "{}: the pack was built without normals", pack_.path());
+    if (settings_.channel == ViewChannel::normal && directory_.model.settings.lighting == Lighting::baked)
+      return fail(ErrorKind::unsupported, "{}: the views of a pack of baked light have no normals", pack_.path());
     const uint64_t files = settings_.cells.size() * (settings_.atlas ? 1 : settings_.views.size());
     if (files > kMaxExtractedFiles)
       return fail(ErrorKind::exhausted, "{} pictures: at most {} are written at once; choose cells or views", files,

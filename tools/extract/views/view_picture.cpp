@@ -37,7 +37,7 @@ void putTexel(const ViewImage& view, size_t texel, ViewChannel channel, uint8_t*
       out[0] = view.depth[texel];
       break;
     case ViewChannel::normal:
-      putNormal(view.normal.data() + 2 * texel, rgba[3], out);
+      putNormal(view.normal.data() + 3 * texel, rgba[3], out);
       break;
   }
 }

@@ -14,7 +14,7 @@ struct Binding {
   const char* purpose;  // null: the same as of the line before
 };
 
-constexpr std::array<Binding, 16> kBindings = {{
+constexpr std::array<Binding, 21> kBindings = {{
     {Key::tab, Command::changeNavigation, "Tab", "orbit or fly"},
     {Key::f, Command::fit, "F", "fit the model into the window"},
     {Key::home, Command::home, "Home", "back to the overview"},
@@ -26,6 +26,11 @@ constexpr std::array<Binding, 16> kBindings = {{
     {Key::six, Command::bottomView, "6", nullptr},
     {Key::m, Command::nextMode, "M", "what is drawn: auto, impostors, full"},
     {Key::k, Command::nextKind, "K", "kind of the impostors: A, flat"},
+    {Key::l, Command::nextLight, "L", "light: sun, headlight (of relightable packs)"},
+    {Key::left, Command::sunLeft, "Arrows", "left, right, up, down: move the sun (of relightable packs)"},
+    {Key::right, Command::sunRight, "Right", nullptr},
+    {Key::up, Command::sunHigher, "Up", nullptr},
+    {Key::down, Command::sunLower, "Down", nullptr},
     {Key::p, Command::capture, "P, F12", "save the picture (PNG) and the camera (JSON) here"},
     {Key::f12, Command::capture, "F12", nullptr},
     {Key::h, Command::help, "H, F1", "this help"},

@@ -17,7 +17,7 @@ std::string messageOfSet(const std::string& set) { return messageOf(fmt::format(
 TEST(DataSetList, SaysWhatToBuildFromWhatAndHow) {
   const auto sets = parseDataSets(R"({"datasets":[
     {"name":"city","meshes":["a.ply","../b c.obj"],"output":"big.far",
-     "options":{"views":42,"unit":"m","normals":true,"quick":false,"samples":4,"scale":0.5}},
+     "options":{"views":42,"unit":"m","lighting":"relightable","quick":false,"samples":4,"scale":0.5}},
     {"name":"statue-2_x.y","meshes":["-s.ply"]}]})",
                                   "list.json");
   ASSERT_TRUE(sets) << sets.error().message;
@@ -25,7 +25,8 @@ TEST(DataSetList, SaysWhatToBuildFromWhatAndHow) {
   EXPECT_EQ((*sets)[0].name, "city");
   EXPECT_EQ((*sets)[0].meshes, (Strings{"a.ply", "../b c.obj"}));
   EXPECT_EQ((*sets)[0].output, "big.far");
-  EXPECT_EQ((*sets)[0].options, (Strings{"--normals", "--samples=4", "--scale=0.5", "--unit=m", "--views=42"}));
+  EXPECT_EQ((*sets)[0].options,
+            (Strings{"--lighting=relightable", "--samples=4", "--scale=0.5", "--unit=m", "--views=42"}));
   EXPECT_EQ((*sets)[1].output, "statue-2_x.y.far");
   EXPECT_TRUE((*sets)[1].options.empty());
 }

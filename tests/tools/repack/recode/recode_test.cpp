@@ -19,8 +19,9 @@ class RecodeTest : public testing::Test {
   void SetUp() override {
     directory_ = std::filesystem::temp_directory_path() / fmt::format("farcell_repack_{}", static_cast<int>(getpid()));
     std::filesystem::create_directory(directory_);
-    const auto written = writeSyntheticPack(at("a.far"), sphereTriangles({1e6, 2, 3}, 2, 2, 0x0020c040),
-                                            {.level = 1, .views = 12, .imageSize = 32, .withNormals = true});
+    const auto written =
+        writeSyntheticPack(at("a.far"), sphereTriangles({1e6, 2, 3}, 2, 2, 0x0020c040),
+                           {.level = 1, .views = 12, .imageSize = 32, .lighting = Lighting::relightable});
     ASSERT_TRUE(written) << written.error().message;
   }
   void TearDown() override { std::filesystem::remove_all(directory_); }

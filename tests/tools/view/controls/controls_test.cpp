@@ -223,9 +223,12 @@ TEST(Keys, everyCommandHasAKeyAndTheHelpNamesIt) {
   EXPECT_EQ(commandOf(Key::escape), Command::quit);
   EXPECT_EQ(commandOf(Key::f12), Command::capture);
   EXPECT_EQ(commandOf(Key::home), Command::home);
+  EXPECT_EQ(commandOf(Key::l), Command::nextLight);
+  EXPECT_EQ(commandOf(Key::up), Command::sunHigher);
   EXPECT_FALSE(commandOf(Key::w));
   EXPECT_FALSE(commandOf(Key::other));
-  for (const char* word : {"WASD", "Tab", "Esc", "F12", "wheel"}) EXPECT_NE(keyHelp().find(word), std::string::npos);
+  for (const char* word : {"WASD", "Tab", "Esc", "F12", "wheel", "headlight", "Arrows"})
+    EXPECT_NE(keyHelp().find(word), std::string::npos);
 }
 
 }  // namespace

@@ -37,8 +37,7 @@ function makeSettings() {
       ["Geometry", `${reference.kind === "mesh" ? "the original file" : "the pack's own triangles"}, ray traced`],
       ["Samples a pixel", String(reference.samples)], ["Time, all cameras", `${figure(reference.seconds)} s`],
       ["Picture", pictureSize], ["Background", colourValue(report.background)],
-      ["Sun", light.sun.map((value) => value.toFixed(3)).join(", ")],
-      ["Light", `ambient ${figure(light.ambient)}, diffuse ${figure(light.diffuse)}`]]),
+      ["Light", `${light.text}; ambient ${figure(light.ambient)}, diffuse ${figure(light.diffuse)}`]]),
     card("Machine", [["Processor", machine.processor], ["Threads", String(machine.threads)], ["OpenGL", report.gl],
       ["Timed frames", `${report.timedFrames} warm ones after a cold one`], ["farcell", report.version]]));
   const names = [...new Set(renderers.flatMap((renderer) => Object.keys(renderer.settings)))];
