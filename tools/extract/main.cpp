@@ -30,7 +30,7 @@ void addOptions(CLI::App& app, ExtractOptions& options) {
       ->type_name("LIST")
       ->capture_default_str();
   app.add_option("--channel", options.channel,
-                 "colour: with coverage as alpha; depth: 0 unknown, 255 nearest; normal: of packs that have them")
+                 "colour: with coverage as alpha; depth: 0 unknown, 255 nearest; normal: of relightable packs")
       ->check(CLI::IsMember({"colour", "coverage", "depth", "normal"}))
       ->capture_default_str();
   app.add_option("--format", options.format, "of the pictures")

@@ -67,7 +67,7 @@ TEST_F(ViewProgram, withoutADisplayItSaysSoAndFails) {
 
 TEST_F(ViewProgram, misuseExitsWith2AndABadPackWith1BeforeAnyWindow) {
   for (const std::string arguments : {"", "a.far --size 0x5", "a.far --json -", "a.far --frames 0", "a.far --kind C",
-                                      "a.far --camera-name a", "a.far --background red"})
+                                      "a.far --camera-name a", "a.far --background red", "a.far --light headlight"})
     EXPECT_EQ(view(arguments), 2) << arguments;
   EXPECT_EQ(view("none.far"), 1);
   EXPECT_NE(text("err").find("none.far"), std::string::npos);
@@ -209,6 +209,26 @@ TEST_F(OpenViewer, whatItSavesIsWhatItSaysAndRenderDrawsItAgain) {
   const int worst = worstDifference(picture, directory_ / "again.png");
   EXPECT_GE(worst, 0);
   EXPECT_LE(worst, 2);
+}
+
+TEST_F(OpenViewer, keysMoveTheLightOfARelightablePackAndWhatItSavesSaysSo) {
+  ASSERT_TRUE(writeSyntheticPack(directory_ / "a.far", sphereTriangles({100, 0, 0}, 5, 3, 0x0040a0ff),
+                                 {.level = 1, .views = 12, .imageSize = 32, .lighting = Lighting::relightable}));
+  if (!open("a.far --size 320x200")) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+  hand("key Up");
+  savedCamera();
+  EXPECT_TRUE(await([&] { return text("out").find(" --sun 39.8056,46.8685") != std::string::npos; })) << text("out");
+  hand("key l");
+  savedCamera();
+  EXPECT_TRUE(await([&] { return text("out").find(" --light headlight") != std::string::npos; })) << text("out");
+}
+
+TEST_F(OpenViewer, theLightOfABakedPackStaysAndTheViewerSaysWhy) {
+  if (!open("a.far --size 320x200")) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+  hand("key l");
+  EXPECT_TRUE(await([&] { return text("err").find("--lighting relightable") != std::string::npos; })) << text("err");
+  savedCamera();
+  EXPECT_EQ(text("out").find("--light"), std::string::npos) << text("out");
 }
 
 }  // namespace

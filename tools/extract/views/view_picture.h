@@ -10,7 +10,7 @@ enum class ViewChannel {
   colour,    // RGBA, not premultiplied: alpha is coverage
   coverage,  // grey
   depth,     // grey as stored: 0 unknown, 1 farthest, 255 nearest (pages.h)
-  normal,    // RGBA: a unit vector, world axes, -1..1 as 0..255; alpha is coverage
+  normal,    // RGBA: direction of the mean normal, world axes, -1..1 as 0..255; alpha is coverage
 };
 
 int channelCount(ViewChannel channel);
