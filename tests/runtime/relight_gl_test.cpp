@@ -65,7 +65,7 @@ TEST(Relit, aBallIsShadedAsItsNormalsSayUnderAnySun) {
   FrameImage image;
   for (int i = 0; i < 6; ++i) {
     const Sun sun = randomSun(random);
-    const Camera camera = lookAt(sunDirection(UpAxis::z, randomSun(random)) * 6.0f, {0, 0, 0}, 0.45);
+    const Camera camera = lookAt(glm::dvec3(sunDirection(UpAxis::z, randomSun(random))) * 6.0, {0, 0, 0}, 0.45);
     for (const ImpostorKind kind : {ImpostorKind::depthCorrected, ImpostorKind::blended}) {
       drawn.draw(camera, impostorsUnder({LightKind::sun, sun}, kind), image);
       EXPECT_LT(apartFromAnalytic(image, camera, sunDirection(UpAxis::z, sun)), 3) << sunText(sun);
@@ -83,7 +83,7 @@ TEST(Relit, showsWhatAPackBakedUnderThatSunShows) {
   DrawnPack relightable = openBall(Lighting::relightable), baked = openBall(Lighting::baked, sun);
   FrameImage relit, own;
   for (const ImpostorKind kind : {ImpostorKind::flat, ImpostorKind::depthCorrected, ImpostorKind::blended}) {
-    const Camera camera = lookAt(sunDirection(UpAxis::z, randomSun(random)) * 6.0f, {0, 0, 0}, 0.45);
+    const Camera camera = lookAt(glm::dvec3(sunDirection(UpAxis::z, randomSun(random))) * 6.0, {0, 0, 0}, 0.45);
     relightable.draw(camera, impostorsUnder({LightKind::sun, sun}, kind), relit);
     baked.draw(camera, impostorsUnder({}, kind), own);
     EXPECT_LT(difference(relit, own).mean, 1) << sunText(sun) << " kind " << static_cast<int>(kind);

@@ -49,7 +49,7 @@ void expectHolds(const ViewStore& store, const ResidentView& view, uint32_t numb
 }
 
 TEST_F(Views, growingKeepsWhatWasThere) {
-  ViewStore store(kEdge, 1000 * kLayerBytes);
+  ViewStore store(kEdge, 1000 * kLayerBytes, false);
   store.beginPortion();
   for (uint32_t i = 0; i < 200; ++i) ASSERT_NE(store.add(7, i, numbered(i)), nullptr);
   for (uint32_t i = 0; i < 200; ++i) {
@@ -62,7 +62,7 @@ TEST_F(Views, growingKeepsWhatWasThere) {
 
 TEST_F(Views, aFullBudgetRefusesUntilTheNextPortionAndNeverGrowsBeyond) {
   constexpr uint32_t kLayers = 100;
-  ViewStore store(kEdge, kLayers * kLayerBytes);
+  ViewStore store(kEdge, kLayers * kLayerBytes, false);
   for (int frame = 0; frame < 4; ++frame) {
     store.beginPortion();
     for (uint32_t i = 0; i < 150; ++i) {
@@ -81,7 +81,7 @@ TEST_F(Views, aFullBudgetRefusesUntilTheNextPortionAndNeverGrowsBeyond) {
 }
 
 TEST_F(Views, anEmptyViewCostsNoLayer) {
-  ViewStore store(kEdge, kLayerBytes);
+  ViewStore store(kEdge, kLayerBytes, false);
   store.beginPortion();
   const ViewImage empty{.view = 0, .rgba = {}, .depth = {}, .normal = {}};
   ASSERT_NE(store.add(1, 0, empty), nullptr);
