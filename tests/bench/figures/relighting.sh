@@ -32,7 +32,7 @@ evaluate() {
 # Geometric means of columns of ratios, one line a sun.
 means() {
   awk -F' [|] ' '{ for (i = 1; i <= NF; ++i) sum[i] += log($i) }
-    END { for (i = 1; i <= NF; ++i) printf "%s%.3f", i > 1 ? " | " : "", exp(sum[i] / NR); print "" }'
+    END { for (i = 1; i <= NF; ++i) printf "%s%.3f", (i > 1 ? " | " : ""), exp(sum[i] / NR); print "" }'
 }
 
 bytes() { stat -c %s "$out/$1.far"; }
