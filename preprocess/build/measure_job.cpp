@@ -28,7 +28,7 @@ Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell) {
     FARCELL_ASSIGN(const CodedPart coded, context.store.part(cell, part));
     FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(coded.bytes, {side, coded.decodedBytes}));
     const auto& [red, green, blue] = kDefaultAlbedo;
-    const uint32_t lit = bake::packedOctahedral(sunDirection(context.model.settings.up));
+    const uint32_t lit = bake::packedOctahedral(sunDirection(context.model.settings.up, context.model.settings.sun));
     const uint32_t plain = red | uint32_t{green} << 8 | uint32_t{blue} << 16;
     for (size_t i = 0; i < page.indices.size(); ++i) {
       const uint32_t vertex = page.indices[i];

@@ -161,8 +161,9 @@ Result<> simplifyInner(const BuildContext& context, uint32_t cell) {
     meshes.push_back(std::move(mesh));
   }
   // A surface four times as large, twice as coarse: as many triangles as a leaf has on average.
-  const LodSettings settings{std::max<uint64_t>(1, leafTriangles / 2), context.model.settings.simplifier,
-                             sunDirection(context.model.settings.up)};
+  const BuildSettings& build = context.model.settings;
+  LodSettings settings{std::max<uint64_t>(1, leafTriangles / 2), build.simplifier};
+  if (build.lighting == Lighting::baked) settings.sun = sunDirection(build.up, build.sun);
   FARCELL_ASSIGN(const SimplifiedCell simplified,
                  simplifyCell(context.model.grid, record.key, meshes, children.errorSteps, settings));
   meshes.clear();

@@ -151,6 +151,23 @@ TEST_F(BuildPack, ViewsAreNoFartherFromWhatWasBakedThanTheirError) {
   EXPECT_GT(compared, 300);
 }
 
+// A colour that holds a sun's light would be wrong under another.
+TEST_F(BuildPack, OnlyMeshesOfBakedPacksShowLitColours) {
+  const auto mesh = write("sphere.obj", sphereObj(30, 3, glm::dvec3(1e6, -2e6, 5)));
+  const auto pagesWithShown = [&](Lighting lighting) {
+    BuildOptions options = smallLeaves();
+    options.settings.lighting = lighting;
+    EXPECT_TRUE(build(mesh, "lit.far", options));
+    const auto pack = PackFile::open(directory_ / "lit.far");
+    int count = 0;
+    for (uint32_t page = 0; page < pack->directory().pages.size(); ++page)
+      if (pack->directory().pages[page].kind == PageKind::geometry) count += !pack->readGeometry(page)->shown.empty();
+    return count;
+  };
+  EXPECT_GT(pagesWithShown(Lighting::baked), 0);
+  EXPECT_EQ(pagesWithShown(Lighting::relightable), 0);
+}
+
 TEST_F(BuildPack, EveryInstructionSetAndMemoryGivesTheSameBytes) {
   const auto mesh = write("sphere.obj", sphereObj(30, 3, glm::dvec3(1e6, -2e6, 5)));
   BuildOptions options = smallLeaves();
