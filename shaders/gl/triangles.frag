@@ -20,17 +20,26 @@ flat in int shares;
 #ifdef SHOW_NORMALS
 in vec3 along;
 #endif
+#ifdef TEXTURED
+centroid in vec2 onAtlas;
+layout(binding = 3) uniform sampler2D atlas;
+#endif
 
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
 
 void main() {
+#ifdef TEXTURED
+  vec3 surface = albedo * texture(atlas, onAtlas).rgb;
+#else
+  vec3 surface = albedo;
+#endif
 #ifdef SMOOTH_NORMALS
   vec3 unit = normalize(surfaceNormal);
-  colour = vec4(shade(albedo, unit, frame.sun.xyz), 1.0);
+  colour = vec4(shade(surface, unit, frame.sun.xyz), 1.0);
 #else
   vec3 unit = faceNormal;
-  colour = vec4(albedo * light, 1.0);
+  colour = vec4(surface * light, 1.0);
 #endif
 #if defined(SHOW_TINT)
   colour = tinted(colour, tint);
