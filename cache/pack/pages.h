@@ -35,7 +35,7 @@ struct TexturePage {
   std::vector<std::vector<uint8_t>> levels;  // from firstLevel on; rows of texels, the lowest first
   bool operator==(const TexturePage&) const = default;
 };
-inline constexpr uint32_t kMaxAtlasEdge = 2048;
+inline constexpr uint32_t kMaxTextureEdge = 2048;
 inline constexpr uint32_t kMaxAtlasLevels = 6;
 
 // Group 0 of an atlas holds the coarsest levels, which are always needed, each next group the level before: a far leaf

@@ -54,9 +54,9 @@ Result<TexturePage> readHeader(ByteReader& in, size_t pageBytes, const TextureLi
     return wrong(12, fmt::format("levels of an atlas of up to {}", kMaxAtlasLevels),
                  fmt::format("{} from {} of {}", count, page.firstLevel, page.levelCount));
   const uint32_t unit = 1u << (page.levelCount - 1);
-  if (page.width < 1 || page.height < 1 || std::max(page.width, page.height) > kMaxAtlasEdge ||
+  if (page.width < 1 || page.height < 1 || std::max(page.width, page.height) > kMaxTextureEdge ||
       page.width % unit != 0 || page.height % unit != 0)
-    return wrong(0, fmt::format("edges of up to {}, multiples of {}", kMaxAtlasEdge, unit),
+    return wrong(0, fmt::format("edges of up to {}, multiples of {}", kMaxTextureEdge, unit),
                  fmt::format("{} x {}", page.width, page.height));
   if (page.channels != 3 && page.channels != 4) return wrong(8, "3 or 4 channels", fmt::format("{}", page.channels));
   page.levels.resize(count);
@@ -121,8 +121,8 @@ void checkValid(const TexturePage& page) {
   FARCELL_CHECK(page.firstLevel + page.levels.size() <= page.levelCount);
   FARCELL_CHECK(page.channels == 3 || page.channels == 4);
   const uint32_t unit = 1u << (page.levelCount - 1);
-  FARCELL_CHECK(page.width > 0 && page.width <= kMaxAtlasEdge && page.width % unit == 0);
-  FARCELL_CHECK(page.height > 0 && page.height <= kMaxAtlasEdge && page.height % unit == 0);
+  FARCELL_CHECK(page.width > 0 && page.width <= kMaxTextureEdge && page.width % unit == 0);
+  FARCELL_CHECK(page.height > 0 && page.height <= kMaxTextureEdge && page.height % unit == 0);
   for (uint32_t i = 0; i < page.levels.size(); ++i)
     FARCELL_CHECK_EQ(page.levels[i].size(), page.channels * sizeOf(page, page.firstLevel + i).texels());
 }

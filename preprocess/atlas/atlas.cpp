@@ -61,11 +61,11 @@ void padAsMayBe(Plan& plan) {
 }
 
 std::optional<Plan> planOf(std::span<const Chart> charts) {
-  for (double edge = kMaxAtlasEdge; edge >= kLeastEdge; edge *= 0.84089641525) {  // 2^(-1/4)
+  for (double edge = kMaxTextureEdge; edge >= kLeastEdge; edge *= 0.84089641525) {  // 2^(-1/4)
     Plan plan;
     plan.texels = texelsOf(charts, edge);
     padAsMayBe(plan);
-    std::optional<Packing> packing = packed(plan.padded, kMaxAtlasEdge / plan.unit);
+    std::optional<Packing> packing = packed(plan.padded, kMaxTextureEdge / plan.unit);
     if (!packing) continue;
     plan.places = std::move(packing->places);
     plan.size = packing->size;

@@ -4,7 +4,7 @@
 // 2. packing.h: where they lie, each with a gutter around it of half a texel of the coarsest level, filled from the
 //    texture itself, and none sharing a texel of that level with another.
 // 3. Texels are filtered from the source. They are as fine as the source, or less where all would not fit into
-//    kMaxAtlasEdge^2: the largest charts give way first.
+//    kMaxTextureEdge^2: the largest charts give way first.
 #pragma once
 
 #include <array>

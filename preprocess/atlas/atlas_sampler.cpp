@@ -5,11 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "cache/base/check.h"
+#include "shaders/shared/draw.h"
 
 namespace farcell {
 namespace {
-
-constexpr float kMostProbes = 16;
 
 struct LevelView {
   const uint8_t* texels;
@@ -51,12 +50,12 @@ glm::vec3 AtlasSampler::sample(const TextureLookup& lookup) {
   const TexturePage& atlas = atlases_[lookup.texture];
   const glm::vec2 size(static_cast<float>(atlas.width), static_cast<float>(atlas.height));
   const float across = glm::length(lookup.alongX * size), up = glm::length(lookup.alongY * size);
-  const float major = std::max({across, up, 1e-6f}), minor = std::max(std::min(across, up), major / kMostProbes);
-  const float probes = std::ceil(major / minor - 1e-3f);
+  const float major = std::max(across, up), minor = std::max(std::min(across, up), 1.0f);
+  const float probes = std::clamp(std::ceil(major / minor - 1e-3f), 1.0f, shared::kMostProbes);
+  const float level = std::log2(std::max(major, 1e-6f) / probes) + shared::kAtlasLodBias;
   const glm::vec2 axis = across >= up ? lookup.alongX : lookup.alongY;
   glm::vec3 sum(0);
-  for (float i = 0; i < probes; ++i)
-    sum += trilinearAt(atlas, std::log2(major / probes), lookup.at + ((i + 0.5f) / probes - 0.5f) * axis);
+  for (float i = 0; i < probes; ++i) sum += trilinearAt(atlas, level, lookup.at + ((i + 0.5f) / probes - 0.5f) * axis);
   return sum / probes;
 }
 

@@ -14,6 +14,9 @@ class AtlasSampler final : public TextureSampler {
   // TextureLookup::texture is an index into these, its coordinates are those of GeometryPage. They hold all levels.
   explicit AtlasSampler(std::vector<TexturePage> atlases) : atlases_(std::move(atlases)) {}
 
+  // Other atlases from now on.
+  void show(std::vector<TexturePage> atlases) { atlases_ = std::move(atlases); }
+
   glm::vec3 sample(const TextureLookup& lookup) override;
   const std::optional<Error>& failure() const override { return none_; }
 

@@ -7,7 +7,6 @@
 namespace farcell {
 namespace {
 
-constexpr float kMostAnisotropy = 16;
 constexpr uint64_t kTexelBytes = 4;  // drivers keep three channels as four
 
 GLenum formatOf(const TexturePage& shape) { return shape.channels == 4 ? GL_RGBA : GL_RGB; }
@@ -30,12 +29,6 @@ void upload(const GlTexture& texture, const TexturePage& page, uint32_t firstLev
 }
 
 }  // namespace
-
-AtlasStore::AtlasStore(uint64_t budgetBytes) : budgetBytes_(budgetBytes) {
-  if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return;
-  glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &anisotropy_);
-  anisotropy_ = std::clamp(anisotropy_, 1.0f, kMostAnisotropy);
-}
 
 const AtlasStore::Resident* AtlasStore::keep(uint32_t number) {
   const auto found = entries_.find(number);
@@ -105,7 +98,6 @@ GlTexture AtlasStore::create(const TexturePage& shape, uint32_t firstLevel) cons
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  if (anisotropy_ > 1) glTextureParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy_);
   texture.label("atlas");
   return texture;
 }

@@ -16,8 +16,8 @@ namespace farcell {
 
 class AtlasStore {
  public:
-  // One atlas, in its coarsest levels, is always held. REQUIRES: a current context.
-  explicit AtlasStore(uint64_t budgetBytes);
+  // One atlas, in its coarsest levels, is always held.
+  explicit AtlasStore(uint64_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
   // Numbers are the caller's: of pages of group 0.
   struct Resident {
@@ -50,7 +50,6 @@ class AtlasStore {
   void makeRoom(uint64_t bytes);
 
   const uint64_t budgetBytes_;
-  float anisotropy_ = 1;
   uint64_t usedBytes_ = 0;
   uint64_t portion_ = 0;
   std::unordered_map<uint32_t, Entry> entries_;

@@ -34,6 +34,7 @@ TEST(PackFile, GivesBackEverythingThatWasWritten) {
   report.geometryBytes = directory.pages.at(2).storedBytes + directory.pages.at(3).storedBytes;
   report.impostorBytes =
       directory.pages[0].storedBytes + directory.pages[1].storedBytes + directory.pages.at(4).storedBytes;
+  report.textureBytes = directory.pages.at(5).storedBytes + directory.pages.at(6).storedBytes;
   EXPECT_EQ(directory.report, report);
   ASSERT_EQ(directory.cells.size(), 3u);
   for (size_t i = 0; i < 3; ++i) {
@@ -42,18 +43,21 @@ TEST(PackFile, GivesBackEverythingThatWasWritten) {
         std::tie(found.key, found.parent, found.firstChild, found.childCount, found.content, found.triangles),
         std::tie(wanted.key, wanted.parent, wanted.firstChild, wanted.childCount, wanted.content, wanted.triangles));
     EXPECT_EQ(std::tie(found.meshTriangles, found.geometricError, found.firstGeometryPage, found.geometryPageCount,
-                       found.firstViewPage, found.viewPageCount),
+                       found.firstViewPage, found.viewPageCount, found.firstTexturePage, found.texturePageCount),
               std::tie(wanted.meshTriangles, wanted.geometricError, wanted.firstGeometryPage, wanted.geometryPageCount,
-                       wanted.firstViewPage, wanted.viewPageCount));
+                       wanted.firstViewPage, wanted.viewPageCount, wanted.firstTexturePage, wanted.texturePageCount));
   }
   EXPECT_EQ(pack->readViews(0), expected.views[0]);
   EXPECT_EQ(pack->readViews(1), expected.views[1]);
   EXPECT_EQ(pack->readGeometry(2), expected.geometry[0]);
   EXPECT_EQ(pack->readGeometry(3), expected.geometry[1]);
   EXPECT_EQ(pack->readViews(4), expected.views[2]);
+  EXPECT_EQ(pack->readAtlas(1, 0), expected.atlas);
+  EXPECT_EQ(pack->readAtlas(2, 0), expected.atlas);
+  EXPECT_TRUE(pack->atlasPages(0, 0).empty());
   std::vector<uint64_t> done;
   EXPECT_TRUE(pack->verify(10, [&](uint64_t pages) { done.push_back(pages); }).empty());
-  EXPECT_EQ(done, (std::vector<uint64_t>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(done, (std::vector<uint64_t>{1, 2, 3, 4, 5, 6, 7}));
 }
 
 TEST(PackFile, HasTheSameBytesWhenWrittenTwice) {
