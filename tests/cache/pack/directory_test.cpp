@@ -237,7 +237,7 @@ TEST_F(LyingDirectory, IsRefusedForWhatItsCellsSayOfPages) {
       },
       "its own geometry");
   expectRefused(
-      "views out of range", [](Directory& d) { d.cells[2].viewPageCount = 2; }, "pages of views below 7");
+      "views out of range", [](Directory& d) { d.cells[2].viewPageCount = 4; }, "pages of views below 7");
   expectRefused(
       "views that wrap", [](Directory& d) { d.cells[2].viewPageCount = kNone - 1; }, "pages of views below 7");
   expectRefused(
@@ -347,7 +347,7 @@ TEST_F(LyingDirectory, IsFoundOutWhenAPageIsRead) {
   EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].triangles = d.cells[1].meshTriangles = 2; }),
                   "page 2: expected 2 triangles, found 1"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].content.max.x = 999; }), "page 2: expected positions inside"));
-  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes += 4; }), "page 3: expected 76 decoded bytes"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes += 4; }), "page 3: expected 88 decoded bytes"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes -= 4; }), "page 3: byte 0 of the page"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[0].checksum ^= 1; }), "page 0: expected checksum"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[4].group += 2; }), "page 4: expected views of group"));

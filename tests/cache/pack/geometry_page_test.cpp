@@ -146,9 +146,8 @@ TEST(GeometryPageCoding, ReturnsEveryRandomPageExactly) {
   for (uint32_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const GeometryPage page =
-        randomGeometry(random, 3 + seed * seed % 700, seed * 5 % 900, kMaxCoordinate, seed % 2, seed % 3 == 0,
-                       seed % 5 < 2);
+    const GeometryPage page = randomGeometry(random, 3 + seed * seed % 700, seed * 5 % 900, kMaxCoordinate, seed % 2,
+                                             seed % 3 == 0, seed % 5 < 2);
     const Bytes bytes = encodeGeometryPage(page);
     const auto decoded = decode(bytes, page);
     ASSERT_TRUE(decoded.has_value()) << decoded.error().message;

@@ -152,7 +152,7 @@ TEST(PackFile, SaysThatAFutureVersionIsUnsupported) {
   EXPECT_NE(error.message.find("expected a pack of version 0, found version 1"), std::string::npos) << error.message;
 }
 
-// A pack of one triangle and one small view, so that every bit of the file can be tried.
+// A pack of one triangle, one small view and one small atlas, so that every bit of the file can be tried.
 void writeSmallPack(const std::filesystem::path& path) {
   Directory directory;
   directory.model.settings.views = 12;
@@ -168,6 +168,8 @@ void writeSmallPack(const std::filesystem::path& path) {
   directory.cells[0].geometryPageCount = 1;
   directory.cells[0].firstViewPage = 1;
   directory.cells[0].viewPageCount = 1;
+  directory.cells[0].firstTexturePage = 2;
+  directory.cells[0].texturePageCount = 1;
   std::mt19937 random(1);
   ViewPage views;
   views.views.push_back(samples::randomView(random, 3, 16, true, 0));
@@ -178,6 +180,8 @@ void writeSmallPack(const std::filesystem::path& path) {
   ASSERT_TRUE(
       writer->add(PageKind::geometry, 0, 0, decodedSizeBytes(geometry), encodeGeometryPage(geometry)).has_value());
   ASSERT_TRUE(writer->add(PageKind::views, 0, group, decodedSizeBytes(views), encodeViewPage(views)).has_value());
+  const TexturePage atlas = samples::randomAtlas(random, 8, 4, 3, 3);
+  ASSERT_TRUE(writer->add(PageKind::texture, 0, 0, decodedSizeBytes(atlas), encodeTexturePage(atlas)).has_value());
   ASSERT_TRUE(writer->finish(directory).has_value());
 }
 
