@@ -55,7 +55,7 @@ glm::vec3 truthAt(int px, int py, double height, float light) {
     const double u = ((x - kEdge / 2) * scale + 1) / 2 * kRepeats, v = ((kEdge / 2 - y) * scale + 1) / 2 * kRepeats;
     const auto pixel = [](double at) { return static_cast<int>((at - std::floor(at)) * kImageEdge); };
     for (int channel = 0; channel < 3; ++channel)
-      sum[channel] += checker(pixel(u), kImageEdge - 1 - pixel(v), channel) * light;
+      sum[channel] += static_cast<double>(light) * checker(pixel(u), kImageEdge - 1 - pixel(v), channel);
   }
   return glm::vec3(sum / 64.0);
 }
