@@ -214,12 +214,16 @@ TEST_F(TexturedBuild, SpotIsACowWithADarkAndALightSide) {
   ASSERT_EQ(build("mtllib square.mtl\nusemtl wall\n" + spot, "spot.far").textures.read, 1u);
   const PackFile pack = open("spot.far");
   size_t dark = 0, light = 0;
-  for (const CellRecord& cell : pack.directory().cells) {
-    if (cell.geometryPageCount == 0) continue;
-    const GeometryPage page = pack.readGeometry(cell.firstGeometryPage).value();
-    for (const uint32_t colour : page.colours) {
-      dark += (colour >> 8 & 255) < 90 ? 1 : 0;
-      light += (colour >> 8 & 255) > 220 ? 1 : 0;
+  for (uint32_t cell = 0; cell < pack.directory().cells.size(); ++cell) {
+    if (pack.atlasPages(cell, 0).empty()) continue;
+    const GeometryPage page = pack.readGeometry(pack.directory().cells[cell].firstGeometryPage).value();
+    const TexturePage atlas = pack.readAtlas(cell, 0).value();
+    for (const uint32_t packed : page.coordinates) {
+      const auto x = static_cast<size_t>((packed & 0xffff) / 65536.0 * atlas.width);
+      const auto y = static_cast<size_t>((packed >> 16) / 65536.0 * atlas.height);
+      const int green = atlas.levels[0][3 * (y * atlas.width + x) + 1];
+      dark += green < 90 ? 1 : 0;
+      light += green > 220 ? 1 : 0;
     }
   }
   EXPECT_GT(dark, 300u);
