@@ -12,6 +12,8 @@ packages=(
   libfmt-dev libexpected-dev libxxhash-dev libglm-dev libdeflate-dev zlib1g-dev libmeshoptimizer-dev
   # preprocess: SIMD; glTF and what it may be compressed by
   libhwy-dev libtinygltf-dev libdraco-dev
+  # preprocess: rectangles packed into atlases
+  libstb-dev
   # preprocess: the slow simplifier
   libopenmesh-dev
   # runtime: OpenGL by EGL without a window, and Mesa's software renderer where there is no GPU

@@ -15,12 +15,13 @@ namespace farcell {
 
 inline constexpr uint32_t kNone = 0xffffffffu;
 
-enum class PageKind : uint32_t { geometry = 1, views = 2 };
+enum class PageKind : uint32_t { geometry = 1, views = 2, texture = 3 };
 
 struct PageRecord {
   PageKind kind = PageKind::geometry;
-  uint32_t cell = 0;          // index into Directory::cells
-  uint32_t group = 0;         // views: the viewpoint group (Viewpoints::group) this page holds; geometry: its part
+  uint32_t cell = 0;  // index into Directory::cells
+  // views: the viewpoint group (Viewpoints::group) this page holds; geometry: its part; texture: see kAtlasGroups
+  uint32_t group = 0;
   uint64_t offsetBytes = 0;   // from the start of the file
   uint32_t storedBytes = 0;   // as stored
   uint32_t decodedBytes = 0;  // what it occupies in memory once decoded: budgets are charged with this
@@ -42,6 +43,10 @@ struct CellRecord {
   uint32_t geometryPageCount = 0;
   uint32_t firstViewPage = kNone;  // pages of views, by rising group; kNone when no views were kept
   uint32_t viewPageCount = 0;
+  // Pages of the atlases of a leaf, by rising group; kNone when it has none. They may be those of a cell before it
+  // whose atlases are the same: PageRecord::cell says whose they are.
+  uint32_t firstTexturePage = kNone;
+  uint32_t texturePageCount = 0;
   ErrorTable errors = {};  // of its mesh and of its views, where they are there and were measured
 };
 
@@ -64,6 +69,7 @@ struct BuildReport {
   uint64_t impostorBytes = 0;                    // stored
   uint64_t impostorRawBytes = 0;                 // cropped, before coding
   uint64_t geometryBytes = 0;                    // stored
+  uint64_t textureBytes = 0;                     // stored
   bool operator==(const BuildReport&) const = default;
 };
 

@@ -6,6 +6,7 @@
 
 #include "cache/pack/layout.h"
 #include "cache/pack/pack_file.h"
+#include "cache/pack/pages.h"
 #include "cache/pack/zlib_stream.h"
 #include "cache/schema/viewpoints.h"
 
@@ -170,7 +171,33 @@ class Checker {
                        fmt::format("{} from {}", cell.viewPageCount, cell.firstViewPage));
     for (uint32_t page = cell.firstViewPage; page < cell.firstViewPage + cell.viewPageCount; ++page)
       if (!isOf(page, PageKind::views, i)) return wrongCell(i, "pages of its own views", fmt::format("page {}", page));
+    FARCELL_TRY(textures(i));
     return errors(i);
+  }
+
+  // A leaf's, or all of those of one before it.
+  Result<> textures(uint32_t i) const {
+    const CellRecord& cell = directory_.cells[i];
+    const uint64_t pageCount = directory_.pages.size();
+    const bool there = cell.texturePageCount > 0;
+    if (there != (cell.firstTexturePage != kNone) || (there && cell.childCount > 0) ||
+        (there && uint64_t{cell.firstTexturePage} + cell.texturePageCount > pageCount))
+      return wrongCell(i, fmt::format("pages of textures below {}, of leaves only", pageCount),
+                       fmt::format("{} from {}", cell.texturePageCount, cell.firstTexturePage));
+    if (!there) return {};
+    const uint32_t owner = directory_.pages[cell.firstTexturePage].cell;
+    if (owner > i || directory_.cells[owner].firstTexturePage != cell.firstTexturePage ||
+        directory_.cells[owner].texturePageCount != cell.texturePageCount)
+      return wrongCell(i, "all pages of textures of its own or of a cell before it", fmt::format("those of {}", owner));
+    for (uint32_t page = 0; page < cell.texturePageCount; ++page) {
+      const uint32_t index = cell.firstTexturePage + page;
+      const uint32_t group = directory_.pages[index].group, before = page > 0 ? directory_.pages[index - 1].group : 0;
+      const bool follows = group % kAtlasGroups > 0 ? page > 0 && group == before + 1
+                                                    : page == 0 || group / kAtlasGroups > before / kAtlasGroups;
+      if (!isOf(index, PageKind::texture, owner) || !follows || group / kAtlasGroups >= cell.geometryPageCount)
+        return wrongCell(i, "pages of textures of its parts, from group 0 on", fmt::format("page {}", index));
+    }
+    return {};
   }
 
   // A way to draw the cell that is known, is at every scale, and is there.
@@ -249,8 +276,15 @@ class Checker {
                                    cell.firstGeometryPage),
                        fmt::format("page {}", i));
     }
+    if (page.kind == PageKind::texture) {
+      if (i >= cell.firstTexturePage && i - cell.firstTexturePage < cell.texturePageCount) return {};
+      return wrongPage(i,
+                       fmt::format("{} pages of textures of cell {} from {}", cell.texturePageCount, page.cell,
+                                   cell.firstTexturePage),
+                       fmt::format("page {}", i));
+    }
     if (page.kind != PageKind::views)
-      return wrongPage(i, "kind 1 or 2", fmt::format("{}", static_cast<uint32_t>(page.kind)));
+      return wrongPage(i, "kind 1, 2 or 3", fmt::format("{}", static_cast<uint32_t>(page.kind)));
     if (i < cell.firstViewPage || i - cell.firstViewPage >= cell.viewPageCount)
       return wrongPage(
           i, fmt::format("{} pages of views of cell {} from {}", cell.viewPageCount, page.cell, cell.firstViewPage),
@@ -264,9 +298,12 @@ class Checker {
   Result<> reportedBytes() const {
     const BuildReport& report = directory_.report;
     const PageBytes bytes = pageBytes(directory_.pages);
-    if (report.impostorBytes == bytes.views && report.geometryBytes == bytes.geometry) return {};
-    return wrongModel(fmt::format("{} bytes of views and {} of geometry", bytes.views, bytes.geometry),
-                      fmt::format("{} and {}", report.impostorBytes, report.geometryBytes));
+    if (report.impostorBytes == bytes.views && report.geometryBytes == bytes.geometry &&
+        report.textureBytes == bytes.textures)
+      return {};
+    return wrongModel(
+        fmt::format("{} bytes of views, {} of geometry, {} of textures", bytes.views, bytes.geometry, bytes.textures),
+        fmt::format("{}, {}, {}", report.impostorBytes, report.geometryBytes, report.textureBytes));
   }
 
   const Directory& directory_;
@@ -280,7 +317,9 @@ class Checker {
 PageBytes pageBytes(std::span<const PageRecord> pages) {
   PageBytes bytes;
   for (const PageRecord& page : pages)
-    (page.kind == PageKind::views ? bytes.views : bytes.geometry) += page.storedBytes;
+    (page.kind == PageKind::views      ? bytes.views
+     : page.kind == PageKind::geometry ? bytes.geometry
+                                       : bytes.textures) += page.storedBytes;
   return bytes;
 }
 

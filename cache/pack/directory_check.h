@@ -15,6 +15,7 @@ namespace farcell {
 struct PageBytes {
   uint64_t views = 0;
   uint64_t geometry = 0;
+  uint64_t textures = 0;
 };
 PageBytes pageBytes(std::span<const PageRecord> pages);
 

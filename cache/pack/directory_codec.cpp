@@ -105,8 +105,9 @@ Counts readCounts(ByteReader& in, bool& valid) {
 }
 
 void write(ByteWriter& out, const BuildReport& report) {
-  for (const uint64_t value : {report.inputTriangles, report.inputVertices, report.viewsBaked, report.viewsKept,
-                               report.impostorBytes, report.impostorRawBytes, report.geometryBytes})
+  for (const uint64_t value :
+       {report.inputTriangles, report.inputVertices, report.viewsBaked, report.viewsKept, report.impostorBytes,
+        report.impostorRawBytes, report.geometryBytes, report.textureBytes})
     out.u64(value);
   write(out, report.skipped);
   write(out, report.viewsLeftOut);
@@ -116,7 +117,7 @@ void write(ByteWriter& out, const BuildReport& report) {
 BuildReport readReport(ByteReader& in, bool& valid) {
   BuildReport report;
   for (uint64_t* value : {&report.inputTriangles, &report.inputVertices, &report.viewsBaked, &report.viewsKept,
-                          &report.impostorBytes, &report.impostorRawBytes, &report.geometryBytes})
+                          &report.impostorBytes, &report.impostorRawBytes, &report.geometryBytes, &report.textureBytes})
     *value = in.u64();
   report.skipped = readCounts(in, valid);
   report.viewsLeftOut = readCounts(in, valid);
@@ -125,9 +126,9 @@ BuildReport readReport(ByteReader& in, bool& valid) {
 }
 
 void write(ByteWriter& out, const CellRecord& cell) {
-  for (const uint32_t value :
-       {cell.key.level, cell.key.x, cell.key.y, cell.key.z, cell.parent, cell.firstChild, cell.childCount,
-        cell.firstGeometryPage, cell.geometryPageCount, cell.firstViewPage, cell.viewPageCount})
+  for (const uint32_t value : {cell.key.level, cell.key.x, cell.key.y, cell.key.z, cell.parent, cell.firstChild,
+                               cell.childCount, cell.firstGeometryPage, cell.geometryPageCount, cell.firstViewPage,
+                               cell.viewPageCount, cell.firstTexturePage, cell.texturePageCount})
     out.u32(value);
   write(out, cell.content);
   out.u64(cell.triangles);
@@ -139,9 +140,9 @@ void write(ByteWriter& out, const CellRecord& cell) {
 
 CellRecord readCell(ByteReader& in) {
   CellRecord cell;
-  for (uint32_t* value :
-       {&cell.key.level, &cell.key.x, &cell.key.y, &cell.key.z, &cell.parent, &cell.firstChild, &cell.childCount,
-        &cell.firstGeometryPage, &cell.geometryPageCount, &cell.firstViewPage, &cell.viewPageCount})
+  for (uint32_t* value : {&cell.key.level, &cell.key.x, &cell.key.y, &cell.key.z, &cell.parent, &cell.firstChild,
+                          &cell.childCount, &cell.firstGeometryPage, &cell.geometryPageCount, &cell.firstViewPage,
+                          &cell.viewPageCount, &cell.firstTexturePage, &cell.texturePageCount})
     *value = in.u32();
   cell.content = readBox(in);
   cell.triangles = in.u64();

@@ -80,6 +80,7 @@ GeometryPage optimisedOrder(const GeometryPage& page) {
   result.positions = remapped(page.positions, remap, used);
   result.colours = remapped(page.colours, remap, used);
   result.normals = remapped(page.normals, remap, used);
+  result.coordinates = remapped(page.coordinates, remap, used);
   return result;
 }
 

@@ -49,7 +49,8 @@ tl::unexpected<Error> inPage(const PackFile& pack, uint32_t page, const std::str
               page, message);
 }
 
-Result<> checkGeometry(const GeometryPage& page, uint32_t part, const CellRecord& cell, const Model& model) {
+Result<> checkGeometry(const GeometryPage& page, uint32_t part, bool hasAtlas, const CellRecord& cell,
+                       const Model& model) {
   const auto wrong = [](const std::string& expected, const std::string& found) {
     return fail(ErrorKind::corrupt, "expected {}, found {}", expected, found);
   };
@@ -59,6 +60,8 @@ Result<> checkGeometry(const GeometryPage& page, uint32_t part, const CellRecord
   if (!page.positions.empty() && (page.colours.empty() == model.hasColours || page.normals.empty() == model.hasNormals))
     return wrong(fmt::format("colours: {}, normals: {}", model.hasColours, model.hasNormals),
                  fmt::format("{}, {}", !page.colours.empty(), !page.normals.empty()));
+  if (page.coordinates.empty() == hasAtlas)
+    return wrong(fmt::format("texture coordinates: {}", hasAtlas), fmt::format("{}", !page.coordinates.empty()));
   const GridPoint corner = cellBox(model.grid, cell.key).min;
   // Simplified meshes stay in the cube only: parts of them may stand for others beside them.
   const GridBox room = cell.childCount == 0 ? cell.content : cellBox(model.grid, cell.key);
@@ -80,6 +83,23 @@ Result<> checkViews(const ViewPage& page, const PageRecord& record, const Model&
   }
   return {};
 }
+
+// The coarsest levels in the group 0, one level in each other.
+Result<> checkTexture(const TexturePage& page, const PageRecord& record) {
+  const bool coarse = record.group % kAtlasGroups == 0;
+  const uint32_t first = firstCoarseLevel(page);
+  if (coarse ? page.firstLevel == first && page.levels.size() == page.levelCount - first
+             : page.levels.size() == 1 && page.firstLevel == first - record.group % kAtlasGroups)
+    return {};
+  return fail(ErrorKind::corrupt, "expected the levels of group {} of {} with {} coarse ones, found {} from {}",
+              record.group % kAtlasGroups, page.levelCount, page.levelCount - first, page.levels.size(),
+              page.firstLevel);
+}
+
+struct PartOrder {
+  bool operator()(const PageRecord& page, uint32_t part) const { return page.group / kAtlasGroups < part; }
+  bool operator()(uint32_t part, const PageRecord& page) const { return part < page.group / kAtlasGroups; }
+};
 
 Result<> checkDecodedSize(uint32_t expectedBytes, uint32_t foundBytes) {
   if (foundBytes == expectedBytes) return {};
@@ -114,7 +134,8 @@ Result<GeometryPage> PackFile::readGeometry(uint32_t page) const {
   Result<GeometryPage> decoded = decodeGeometryPage(bytes, {maxCoordinate, record.decodedBytes});
   if (!decoded) return inPage(*this, page, decoded.error().message);
   const Result<> checked = checkDecodedSize(record.decodedBytes, decodedSizeBytes(*decoded)).and_then([&] {
-    return checkGeometry(*decoded, record.group, cell, directory_.model);
+    const bool hasAtlas = !atlasPages(record.cell, record.group).empty();
+    return checkGeometry(*decoded, record.group, hasAtlas, cell, directory_.model);
   });
   if (!checked) return inPage(*this, page, checked.error().message);
   return decoded;
@@ -135,6 +156,41 @@ Result<ViewPage> PackFile::readViews(uint32_t page) const {
   return decoded;
 }
 
+std::span<const PageRecord> PackFile::atlasPages(uint32_t cell, uint32_t part) const {
+  const CellRecord& record = directory_.cells[cell];
+  if (record.texturePageCount == 0) return {};
+  const auto all = std::span(directory_.pages).subspan(record.firstTexturePage, record.texturePageCount);
+  const auto [first, last] = std::equal_range(all.begin(), all.end(), part, PartOrder{});
+  return all.subspan(static_cast<size_t>(first - all.begin()), static_cast<size_t>(last - first));
+}
+
+Result<TexturePage> PackFile::readTexture(uint32_t page) const {
+  FARCELL_ASSIGN(const std::vector<std::byte> bytes, readStored(page));
+  const PageRecord& record = directory_.pages[page];
+  FARCELL_CHECK(record.kind == PageKind::texture);
+  Result<TexturePage> decoded = decodeTexturePage(bytes, {record.decodedBytes});
+  if (!decoded) return inPage(*this, page, decoded.error().message);
+  const Result<> checked = checkDecodedSize(record.decodedBytes, decodedSizeBytes(*decoded)).and_then([&] {
+    return checkTexture(*decoded, record);
+  });
+  if (!checked) return inPage(*this, page, checked.error().message);
+  return decoded;
+}
+
+Result<TexturePage> PackFile::readAtlas(uint32_t cell, uint32_t part) const {
+  const std::span<const PageRecord> records = atlasPages(cell, part);
+  FARCELL_CHECK(!records.empty());
+  const auto first = static_cast<uint32_t>(&records[0] - directory_.pages.data());
+  std::vector<TexturePage> pages;
+  for (uint32_t i = 0; i < records.size(); ++i) {
+    FARCELL_ASSIGN(TexturePage page, readTexture(first + i));
+    pages.push_back(std::move(page));
+  }
+  Result<TexturePage> atlas = atlasOfPages(pages);
+  if (!atlas) return inPage(*this, first, atlas.error().message);
+  return atlas;
+}
+
 std::vector<Error> PackFile::verify(size_t maxFindings, const std::function<void(uint64_t)>& progress) const {
   std::vector<Error> findings;
   const auto note = [&](const auto& result) {
@@ -142,10 +198,13 @@ std::vector<Error> PackFile::verify(size_t maxFindings, const std::function<void
   };
   note(readDirectory(file_));
   for (uint32_t page = 0; page < directory_.pages.size() && findings.size() < maxFindings; ++page) {
-    if (directory_.pages[page].kind == PageKind::geometry)
+    const PageRecord& record = directory_.pages[page];
+    if (record.kind == PageKind::geometry)
       note(readGeometry(page));
-    else
+    else if (record.kind == PageKind::views)
       note(readViews(page));
+    else if (record.group % kAtlasGroups == 0)
+      note(readAtlas(record.cell, record.group / kAtlasGroups));
     if (progress) progress(page + 1);
     if (const Result<> going = checkInterrupt(); !going) {
       findings.push_back(going.error());

@@ -28,10 +28,9 @@ class PackWriter {
   // REQUIRES: `stored` is what the encoder of that kind returned, `decodedBytes` the page's decodedSizeBytes.
   Result<uint32_t> add(PageKind kind, uint32_t cell, uint32_t group, uint32_t decodedBytes,
                        std::span<const std::byte> stored);
-  // `directory.pages`, report.impostorBytes and report.geometryBytes are ignored and filled from what was added.
-  // Returns the size of the file.
-  // REQUIRES: a directory that PackFile::open would accept (CHECK): cells by level and Morton code, children's content
-  // inside their parent's, each page named by its cell.
+  // `directory.pages` and the report's bytes of views, geometry and textures are ignored and filled from what was
+  // added. Returns the size of the file. REQUIRES: a directory that PackFile::open would accept (CHECK): cells by level
+  // and Morton code, children's content inside their parent's, each page named by its cell.
   Result<uint64_t> finish(Directory directory);
 
  private:
@@ -55,10 +54,15 @@ class PackFile {
   // A page as it is stored; its checksum is right.
   Result<std::vector<std::byte>> readStored(uint32_t page) const;
   // Reads, checks and decodes. REQUIRES: the page is of that kind. The page agrees with its record, its cell (number of
-  // triangles, positions inside the content, group of the views) and the model (colours, normals), or the result is
-  // corrupt.
+  // triangles, positions inside the content, an atlas or none, group of the views) and the model (colours, normals), or
+  // the result is corrupt.
   Result<GeometryPage> readGeometry(uint32_t page) const;
   Result<ViewPage> readViews(uint32_t page) const;
+  Result<TexturePage> readTexture(uint32_t page) const;
+  // The pages of the atlas of a part of a leaf's mesh, by group; none where it has no textures.
+  std::span<const PageRecord> atlasPages(uint32_t cell, uint32_t part) const;
+  // All levels of that atlas, from several pages. REQUIRES: it has pages.
+  Result<TexturePage> readAtlas(uint32_t cell, uint32_t part) const;
 
   // Every byte of the file: header, footer and directory once more, all checksums, all pages decoded,
   // cells and pages consistent with content. Returns one Error per finding, at most maxFindings. `progress` may be

@@ -39,8 +39,10 @@ Result<uint32_t> PackWriter::add(PageKind kind, uint32_t cell, uint32_t group, u
 
 Result<uint64_t> PackWriter::finish(Directory directory) {
   directory.pages = std::move(pages_);
-  directory.report.impostorBytes = pageBytes(directory.pages).views;
-  directory.report.geometryBytes = pageBytes(directory.pages).geometry;
+  const PageBytes stored = pageBytes(directory.pages);
+  directory.report.impostorBytes = stored.views;
+  directory.report.geometryBytes = stored.geometry;
+  directory.report.textureBytes = stored.textures;
   const std::vector<std::byte> bytes = encodeDirectory(directory);
   const uint64_t offset = file_.sizeBytes();
   checkReadable(bytes, offset, path_);

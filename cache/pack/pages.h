@@ -13,17 +13,44 @@
 namespace farcell {
 
 // The full triangles of a leaf, clipped to its cube. Positions are grid steps from the cube's lowest corner,
-// each in [0, 2^(bits-level)]; vertices are shared wherever position, colour and normal agree.
+// each in [0, 2^(bits-level)]; vertices are shared wherever all that they have agrees.
 struct GeometryPage {
-  std::vector<glm::uvec3> positions;
-  std::vector<uint32_t> colours;  // 0x00BBGGRR per vertex; empty: the model has none
-  std::vector<uint32_t> normals;  // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
-  std::vector<uint32_t> indices;  // three a triangle
+  std::vector<glm::uvec3> positions{};
+  std::vector<uint32_t> colours{};  // 0x00BBGGRR per vertex; empty: the model has none
+  std::vector<uint32_t> normals{};  // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
+  // On the atlas of the page (TexturePage), low 16 bits u, high 16 bits v, each unorm16: there the albedo is the colour
+  // times the texture, channel by channel. Empty: the page has no atlas.
+  std::vector<uint32_t> coordinates{};
+  std::vector<uint32_t> indices{};  // three a triangle
   // What each triangle shows, lit, 0x00BBGGRR: the mean of what a simplified mesh's triangle stands for. Empty: the
   // triangles show their vertices' colours under the light.
   std::vector<uint32_t> shown{};
   bool operator==(const GeometryPage&) const = default;
 };
+
+// Consecutive levels of the atlas of a geometry page, an image that its triangles look at. Level 0 is the finest, each
+// next one has half its edges.
+struct TexturePage {
+  uint32_t width = 0, height = 0;  // of level 0: multiples of 2^(levelCount - 1)
+  uint32_t channels = 3;           // R, G, B; 4: and alpha
+  uint32_t levelCount = 0;         // of the whole atlas
+  uint32_t firstLevel = 0;
+  std::vector<std::vector<uint8_t>> levels;  // from firstLevel on; rows of texels, the lowest first
+  bool operator==(const TexturePage&) const = default;
+};
+inline constexpr uint32_t kMaxTextureEdge = 2048;
+inline constexpr uint32_t kMaxAtlasLevels = 6;
+
+// Group 0 of an atlas holds the coarsest levels, which are always needed, each next group the level before: a far leaf
+// reads little. PageRecord::group is part * kAtlasGroups + group.
+inline constexpr uint32_t kAtlasGroups = 8;
+// The first level of group 0: levels of at most these texels, and at least one.
+inline constexpr uint64_t kCoarseTexels = uint64_t{1} << 16;
+uint32_t firstCoarseLevel(const TexturePage& atlas);
+// The pages of a whole atlas, by group; and what pages of consecutive groups from 0 on hold together: corrupt where
+// they do not belong together.
+std::vector<TexturePage> pagesOfAtlas(const TexturePage& atlas);
+Result<TexturePage> atlasOfPages(std::span<const TexturePage> pages);
 
 // One baked view, cropped to the rectangle of texels that hold anything (after depth was dilated).
 struct ViewImage {
@@ -50,6 +77,9 @@ struct GeometryLimits {
   uint32_t maxCoordinate;  // 2^(bits-level)
   uint64_t maxDecodedBytes;
 };
+struct TextureLimits {
+  uint64_t maxDecodedBytes;
+};
 struct ViewLimits {
   uint32_t viewCount;  // size of the viewpoint set
   uint32_t imageSize;
@@ -64,14 +94,18 @@ GeometryPage optimisedOrder(const GeometryPage& page);
 // Coding is deterministic. Encoders expect valid input (CHECK).
 std::vector<std::byte> encodeGeometryPage(const GeometryPage& page);
 std::vector<std::byte> encodeViewPage(const ViewPage& page);
+std::vector<std::byte> encodeTexturePage(const TexturePage& page);
 // The same page in fewer bytes if deflate finds them when it takes its time; else `bytes`.
 Result<std::vector<std::byte>> smallerGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits);
+Result<std::vector<std::byte>> smallerTexturePage(std::span<const std::byte> bytes, const TextureLimits& limits);
 // What the decoded page occupies in memory: PageRecord::decodedBytes.
 uint32_t decodedSizeBytes(const GeometryPage& page);
 uint32_t decodedSizeBytes(const ViewPage& page);
+uint32_t decodedSizeBytes(const TexturePage& page);
 
 // Decoders trust nothing: a wrong byte is an error of kind corrupt (without a path: the caller adds it).
 Result<GeometryPage> decodeGeometryPage(std::span<const std::byte> bytes, const GeometryLimits& limits);
 Result<ViewPage> decodeViewPage(std::span<const std::byte> bytes, const ViewLimits& limits);
+Result<TexturePage> decodeTexturePage(std::span<const std::byte> bytes, const TextureLimits& limits);
 
 }  // namespace farcell

@@ -25,8 +25,15 @@ uint64_t PackPageSource::storedBytes(uint32_t page) const { return pack_.directo
 
 Result<DecodedPage> PackPageSource::load(uint32_t page) const {
   const auto toPage = [](auto&& decoded) { return DecodedPage(std::forward<decltype(decoded)>(decoded)); };
-  if (pack_.directory().pages[page].kind == PageKind::geometry) return pack_.readGeometry(page).map(toPage);
-  return pack_.readViews(page).map(toPage);
+  switch (pack_.directory().pages[page].kind) {
+    case PageKind::geometry:
+      return pack_.readGeometry(page).map(toPage);
+    case PageKind::views:
+      return pack_.readViews(page).map(toPage);
+    case PageKind::texture:
+      break;
+  }
+  return pack_.readTexture(page).map(toPage);
 }
 
 PagePin::PagePin(PagePin&& other) noexcept

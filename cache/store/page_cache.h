@@ -20,7 +20,7 @@
 
 namespace farcell {
 
-using DecodedPage = std::variant<GeometryPage, ViewPage>;
+using DecodedPage = std::variant<GeometryPage, ViewPage, TexturePage>;
 
 // Where pages come from: a pack, or a fake in tests. Called from several threads at once.
 class PageSource {
@@ -74,6 +74,7 @@ class PagePin {
   // REQUIRES: holds a page of that kind.
   const GeometryPage& geometry() const { return std::get<GeometryPage>(*page_); }
   const ViewPage& views() const { return std::get<ViewPage>(*page_); }
+  const TexturePage& texture() const { return std::get<TexturePage>(*page_); }
 
  private:
   friend class PageCache;

@@ -1,6 +1,11 @@
 #include "preprocess/build/assemble.h"
 
+#include <algorithm>
+#include <array>
+#include <map>
+
 #include "cache/base/check.h"
+#include "cache/base/hash.h"
 #include "cache/base/interrupt.h"
 #include "cache/pack/pack_file.h"
 
@@ -24,7 +29,7 @@ class Assembly {
       if (record.geometryPageCount++ == 0) record.firstGeometryPage = page;
       directory_.report.geometryBytes += part.bytes.size();
     }
-    return {};
+    return textures(cell);
   }
 
   // Of cells in rising order, each once.
@@ -54,6 +59,46 @@ class Assembly {
       errors.codes[static_cast<size_t>(way)] = {};
   }
 
+  // Those of a cell before it, where they are the same.
+  Result<> textures(uint32_t cell) {
+    CellRecord& record = directory_.cells[cell];
+    std::vector<CodedPart> pages;
+    uint64_t hash = 0;
+    const std::vector<uint32_t> groups = context_.store.textureGroups(cell);
+    for (const uint32_t group : groups) {
+      FARCELL_ASSIGN(CodedPart page, context_.store.texture(cell, group));
+      const std::array<uint64_t, 3> chain = {hash, group, hashBytes(page.bytes)};
+      hash = hashBytes(std::as_bytes(std::span(chain)));
+      pages.push_back(std::move(page));
+    }
+    if (pages.empty()) return {};
+    record.texturePageCount = static_cast<uint32_t>(pages.size());
+    const auto [first, last] = atlases_.equal_range(hash);
+    for (auto earlier = first; earlier != last; ++earlier) {
+      FARCELL_ASSIGN(const bool same, sameTextures(earlier->second, groups, pages));
+      if (!same) continue;
+      record.firstTexturePage = directory_.cells[earlier->second].firstTexturePage;
+      return {};
+    }
+    atlases_.emplace(hash, cell);
+    for (size_t i = 0; i < pages.size(); ++i) {
+      FARCELL_ASSIGN(const uint32_t page,
+                     writer_.add(PageKind::texture, cell, groups[i], pages[i].decodedBytes, pages[i].bytes));
+      if (i == 0) record.firstTexturePage = page;
+      directory_.report.textureBytes += pages[i].bytes.size();
+    }
+    return {};
+  }
+
+  Result<bool> sameTextures(uint32_t cell, std::span<const uint32_t> groups, std::span<const CodedPart> pages) const {
+    if (!std::ranges::equal(context_.store.textureGroups(cell), groups)) return false;
+    for (size_t i = 0; i < groups.size(); ++i) {
+      FARCELL_ASSIGN(const CodedPart page, context_.store.texture(cell, groups[i]));
+      if (page.bytes != pages[i].bytes) return false;
+    }
+    return true;
+  }
+
   Result<> viewPage(uint32_t cell, uint32_t group, std::span<const EncodedView> views) {
     const EncodedViewPage page = viewPageOf(views);
     FARCELL_ASSIGN(const uint32_t index,
@@ -75,7 +120,8 @@ class Assembly {
   const std::span<const ViewFate> fates_;
   PackWriter& writer_;
   Directory& directory_;
-  size_t cursor_ = 0;  // in costs_
+  size_t cursor_ = 0;                          // in costs_
+  std::multimap<uint64_t, uint32_t> atlases_;  // cells whose textures are in the pack, by their hash
 };
 
 }  // namespace

@@ -43,10 +43,22 @@ Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& 
   return store;
 }
 
-Result<> CellStore::add(uint32_t cell, uint32_t part, const CodedPart& coded) {
+Result<> CellStore::addPart(Kind kind, uint32_t cell, uint32_t part, const CodedPart& coded) {
   ByteWriter head;
   head.u32(coded.decodedBytes);
-  return journal_->add({static_cast<uint32_t>(Kind::part), idOf(cell, part)}, head.bytes, coded.bytes);
+  return journal_->add({static_cast<uint32_t>(kind), idOf(cell, part)}, head.bytes, coded.bytes);
+}
+
+Result<> CellStore::add(uint32_t cell, uint32_t part, const CodedPart& coded) {
+  return addPart(Kind::part, cell, part, coded);
+}
+
+Result<> CellStore::addColoured(uint32_t cell, uint32_t part, const CodedPart& coded) {
+  return addPart(Kind::coloured, cell, part, coded);
+}
+
+Result<> CellStore::addTexture(uint32_t cell, uint32_t group, const CodedPart& coded) {
+  return addPart(Kind::texture, cell, group, coded);
 }
 
 Result<> CellStore::add(uint32_t cell, const MeshFigures& mesh) {
@@ -82,6 +94,10 @@ void CellStore::found(const JournalRecord& record, std::span<const std::byte> he
   ByteReader in(head);
   if (record.kind == static_cast<uint32_t>(Kind::part)) {
     parts_.emplace(record.id, StoredPart{in.u32(), place});
+  } else if (record.kind == static_cast<uint32_t>(Kind::coloured)) {
+    coloured_.emplace(record.id, StoredPart{in.u32(), place});
+  } else if (record.kind == static_cast<uint32_t>(Kind::texture)) {
+    textures_.emplace(record.id, StoredPart{in.u32(), place});
   } else if (record.kind == static_cast<uint32_t>(Kind::mesh)) {
     MeshFigures mesh;
     mesh.triangles = in.u64();
@@ -137,8 +153,40 @@ Result<CodedPart> CellStore::part(uint32_t cell, uint32_t part) const {
     const std::lock_guard lock(mutex_);
     stored = parts_.at(idOf(cell, part));
   }
+  return read(stored);
+}
+
+Result<CodedPart> CellStore::read(const StoredPart& stored) const {
   FARCELL_ASSIGN(std::vector<std::byte> bytes, journal_->read(stored.place));
   return CodedPart{stored.decodedBytes, std::move(bytes)};
+}
+
+Result<CodedPart> CellStore::coloured(uint32_t cell, uint32_t part) const {
+  StoredPart stored;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = coloured_.find(idOf(cell, part));
+    stored = found != coloured_.end() ? found->second : parts_.at(idOf(cell, part));
+  }
+  return read(stored);
+}
+
+std::vector<uint32_t> CellStore::textureGroups(uint32_t cell) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<uint32_t> groups;
+  const auto end = textures_.lower_bound(idOf(cell + 1, 0));
+  for (auto page = textures_.lower_bound(idOf(cell, 0)); page != end; ++page)
+    groups.push_back(static_cast<uint32_t>(page->first));
+  return groups;
+}
+
+Result<CodedPart> CellStore::texture(uint32_t cell, uint32_t group) const {
+  StoredPart stored;
+  {
+    const std::lock_guard lock(mutex_);
+    stored = textures_.at(idOf(cell, group));
+  }
+  return read(stored);
 }
 
 Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {

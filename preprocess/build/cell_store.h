@@ -46,14 +46,21 @@ class CellStore {
   // A mesh goes in part by part, however many it has, and is there once its figures are.
   Result<> add(uint32_t cell, uint32_t part, const CodedPart& coded);
   Result<> add(uint32_t cell, const MeshFigures& mesh);
+  // Of a leaf with textures besides: a part with colours in place of its atlas, from which the meshes of inner cells
+  // are made; pages of its atlases, by PageRecord::group.
+  Result<> addColoured(uint32_t cell, uint32_t part, const CodedPart& coded);
+  Result<> addTexture(uint32_t cell, uint32_t group, const CodedPart& coded);
   // baked: what became of each view of the batch that is wanted; views: those that are not empty, by rising view.
   Result<> add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views);
   Result<> addErrors(uint32_t cell, CellErrors errors);
   bool hasMesh(uint32_t cell) const;
   bool hasErrors(uint32_t cell) const;
   bool has(const ViewBatch& batch) const;
-  MeshFigures meshFigures(uint32_t cell) const;                // REQUIRES: hasMesh
-  Result<CodedPart> part(uint32_t cell, uint32_t part) const;  // REQUIRES: hasMesh, part < meshFigures(cell).parts
+  MeshFigures meshFigures(uint32_t cell) const;                    // REQUIRES: hasMesh
+  Result<CodedPart> part(uint32_t cell, uint32_t part) const;      // REQUIRES: hasMesh, part < meshFigures(cell).parts
+  Result<CodedPart> coloured(uint32_t cell, uint32_t part) const;  // the same, or that part when it has no atlas
+  std::vector<uint32_t> textureGroups(uint32_t cell) const;        // rising; REQUIRES: hasMesh
+  Result<CodedPart> texture(uint32_t cell, uint32_t group) const;  // REQUIRES: one of these
   // Those that are not empty, by rising view.
   Result<std::vector<EncodedView>> views(uint32_t cell) const;
 
@@ -65,13 +72,15 @@ class CellStore {
   std::map<uint32_t, CellErrors> errors() const;  // of the cells that were measured
 
  private:
-  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3, errors = 4 };
+  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3, errors = 4, coloured = 5, texture = 6 };
   struct StoredPart {
     uint32_t decodedBytes = 0;
     JournalPlace place;
   };
 
   explicit CellStore(const ViewLimits& limits) : limits_(limits) {}
+  Result<> addPart(Kind kind, uint32_t cell, uint32_t part, const CodedPart& coded);
+  Result<CodedPart> read(const StoredPart& stored) const;
   void found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place);
   void foundViews(uint32_t cell, std::span<const std::byte> head);
   void foundErrors(uint32_t cell, std::span<const std::byte> head);
@@ -80,6 +89,8 @@ class CellStore {
   mutable std::mutex mutex_;
   // Guarded by mutex_ while something is added:
   std::map<uint64_t, StoredPart> parts_;  // by cell, then part
+  std::map<uint64_t, StoredPart> coloured_;
+  std::map<uint64_t, StoredPart> textures_;  // by cell, then group
   std::map<uint32_t, MeshFigures> meshes_;
   std::map<uint64_t, JournalPlace> batches_;  // by cell, then first pair
   std::vector<ViewCost> views_;

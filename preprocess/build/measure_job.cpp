@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "cache/base/interrupt.h"
+#include "preprocess/atlas/atlas.h"
+#include "preprocess/atlas/atlas_sampler.h"
 #include "preprocess/bake/settle.h"
 #include "preprocess/build/bake_job.h"
 #include "preprocess/build/soup.h"
@@ -18,15 +20,46 @@ Result<CellSoup> soupOf(const SoupSource& source, uint32_t cell, const std::vect
   return soup;
 }
 
-// The mesh as the pack has it.
-Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell) {
+// All levels of the atlas of a part of a mesh; nothing when it has none.
+Result<std::optional<TexturePage>> storedAtlas(const BuildContext& context, uint32_t cell, uint32_t part) {
+  std::vector<TexturePage> pages;
+  for (const uint32_t group : context.store.textureGroups(cell)) {
+    if (group / kAtlasGroups != part) continue;
+    FARCELL_ASSIGN(const CodedPart coded, context.store.texture(cell, group));
+    FARCELL_ASSIGN(TexturePage page, decodeTexturePage(coded.bytes, {coded.decodedBytes}));
+    pages.push_back(std::move(page));
+  }
+  if (pages.empty()) return std::optional<TexturePage>{};
+  FARCELL_ASSIGN(TexturePage atlas, atlasOfPages(pages));
+  return std::optional<TexturePage>{std::move(atlas)};
+}
+
+// What the corners of a part look at: the atlas of this number, or none.
+void appendCoordinates(const GeometryPage& page, uint32_t atlas, CellSoup& soup) {
+  soup.textures.insert(soup.textures.end(), page.indices.size() / 3, atlas);
+  for (size_t i = 0; i < page.indices.size(); ++i) {
+    const glm::vec2 at =
+        page.coordinates.empty() ? glm::vec2(0) : unpackedCoordinates(page.coordinates[page.indices[i]]);
+    soup.u[i % 3].push_back(at.x);
+    soup.v[i % 3].push_back(at.y);
+  }
+}
+
+// The mesh as the pack has it; its textures are indices into `atlases`.
+Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell, std::vector<TexturePage>& atlases) {
   const GridBox cube = cellBox(context.model.grid, context.tree.cells[cell].key);
   const auto side = static_cast<uint32_t>(cube.max.x - cube.min.x);
   CellSoup soup;
+  const bool textured = !context.store.textureGroups(cell).empty();
   const uint32_t parts = context.store.meshFigures(cell).parts;
   for (uint32_t part = 0; part < parts; ++part) {
     FARCELL_ASSIGN(const CodedPart coded, context.store.part(cell, part));
     FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(coded.bytes, {side, coded.decodedBytes}));
+    if (textured) {
+      FARCELL_ASSIGN(std::optional<TexturePage> atlas, storedAtlas(context, cell, part));
+      appendCoordinates(page, atlas ? static_cast<uint32_t>(atlases.size()) : kNoTexture, soup);
+      if (atlas) atlases.push_back(*std::move(atlas));
+    }
     const auto& [red, green, blue] = kDefaultAlbedo;
     const uint32_t lit = bake::packedOctahedral(sunDirection(context.model.settings.up, context.model.settings.sun));
     const uint32_t plain = red | uint32_t{green} << 8 | uint32_t{blue} << 16;
@@ -61,7 +94,8 @@ uint64_t bytesOfMeasuring(const BuildContext& context, uint64_t triangles) {
   constexpr uint64_t kEdge = kMaxMeasuredEdge;
   const uint64_t triangle = 4 * (12 + (context.model.hasNormals ? 3 : 0) + (context.hasTextures ? 7 : 0));
   const uint64_t samples = std::max(16, context.model.settings.samples);
-  return 5 * triangles * triangle + kEdge * kEdge * (16 * samples + 40 + 8 * 16) +
+  return (context.hasTextures ? kAtlasBytes : 0) + 5 * triangles * triangle +
+         kEdge * kEdge * (16 * samples + 40 + 8 * 16) +
          static_cast<uint64_t>(context.model.settings.views) * kEdge * kEdge / 4;
 }
 
@@ -140,16 +174,19 @@ Result<> measureStored(const BuildContext& context, const MeasureJob& job, Textu
   const SoupSource source(context.model, context.tree, context.partition);
   FARCELL_ASSIGN(const CellSoup grown, soupOf(source, cell, source.leavesInside(cell)));
   FARCELL_ASSIGN(const CellSoup alone, soupOf(source, cell, source.leavesBelow(cell)));
-  FARCELL_ASSIGN(const CellSoup mesh, meshSoup(context, cell));
+  std::vector<TexturePage> atlases;
+  FARCELL_ASSIGN(const CellSoup mesh, meshSoup(context, cell, atlases));
+  AtlasSampler meshTextures(std::move(atlases));
   StoredViews views(context, cell, grown, textures);
   FARCELL_TRY(views.load());
   const BuildSettings& settings = context.model.settings;
   FARCELL_ASSIGN(
       const CellErrors errors,
-      measureCell({contentOf(context, record), alone, grown, mesh.size() > 0 ? &mesh : nullptr, textures},
-                  [&](int view) { return views(view); },
-                  {context.viewpoints, settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
-                   settings.lighting, settings.viewError, job.alternatives}));
+      measureCell(
+          {contentOf(context, record), alone, grown, mesh.size() > 0 ? &mesh : nullptr, textures, &meshTextures},
+          [&](int view) { return views(view); },
+          {context.viewpoints, settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
+           settings.lighting, settings.viewError, job.alternatives}));
   if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
   return context.store.addErrors(cell, errors);
 }

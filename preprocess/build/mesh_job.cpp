@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "cache/base/interrupt.h"
+#include "preprocess/atlas/atlas.h"
 #include "preprocess/encode/geometry_page.h"
 #include "preprocess/encode/vertex_colours.h"
 #include "preprocess/lod/simplify_cell.h"
@@ -50,6 +52,18 @@ class MeshWriter {
     bytes_ += coded.bytes.size();
     return store_.add(cell_, parts_++, coded);
   }
+  // The next part is `page`, with this atlas; `coloured` is the same without it.
+  Result<> add(const GeometryPage& page, const TexturePage& atlas, const GeometryPage& coloured) {
+    const GeometryPage ordered = optimisedOrder(coloured);
+    FARCELL_TRY(store_.addColoured(cell_, parts_, {decodedSizeBytes(ordered), encodeGeometryPage(ordered)}));
+    uint32_t group = parts_ * kAtlasGroups;
+    for (const TexturePage& texture : pagesOfAtlas(atlas)) {
+      const CodedPart coded{decodedSizeBytes(texture), encodeTexturePage(texture)};
+      bytes_ += coded.bytes.size();
+      FARCELL_TRY(store_.addTexture(cell_, group++, coded));
+    }
+    return add(page);
+  }
   Result<> finish(uint64_t triangles, double errorSteps) {
     return store_.add(cell_,
                       {triangles, errorSteps, parts_, static_cast<uint32_t>(std::min<uint64_t>(bytes_, UINT32_MAX))});
@@ -74,7 +88,7 @@ Result<LodMesh> storedMesh(const BuildContext& context, uint32_t cell) {
   LodMesh mesh;
   const uint32_t parts = context.store.meshFigures(cell).parts;
   for (uint32_t part = 0; part < parts; ++part) {
-    FARCELL_ASSIGN(const CodedPart coded, context.store.part(cell, part));
+    FARCELL_ASSIGN(const CodedPart coded, context.store.coloured(cell, part));
     FARCELL_ASSIGN(const GeometryPage page, decodeGeometryPage(coded.bytes, {maxCoordinate, coded.decodedBytes}));
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     for (const glm::uvec3& position : page.positions) mesh.positions.push_back(cellMin + GridPoint(position));
@@ -129,14 +143,21 @@ Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* te
   constexpr size_t kPortion = 16'384;
   const uint64_t triangles = context.tree.cells[cell].triangles;
   FARCELL_ASSIGN(const MemoryGate::Share share,
-                 context.gate.take(std::min(triangles, kPartTriangles) * kBytesOfCodedTriangle, "coding a leaf"));
+                 context.gate.take(std::min(triangles, kPartTriangles) * kBytesOfCodedTriangle +
+                                       (context.hasTextures ? kAtlasBytes : 0),
+                                   "coding a leaf"));
   const Lap lap(context.clock.encodeNs);
   const GridPoint cellMin = cellBox(context.model.grid, context.tree.cells[cell].key).min;
   MeshWriter mesh(context.store, cell);
   Parts parts([&](GridTriangles&& part) -> Result<> {
     FARCELL_TRY(checkInterrupt());
-    const std::vector<GridTriangle> coloured = withTexturesAsColours(std::move(part), textures);
-    return mesh.add(geometryPage(coloured, cellMin, context.model));
+    std::optional<Atlas> atlas;
+    if (!part.textures.empty()) atlas = atlasOf(part.textures, *textures);
+    GeometryPage page;
+    if (atlas) page = geometryPage(part.triangles, cellMin, context.model, atlas->coordinates);
+    const GeometryPage coloured =
+        geometryPage(withTexturesAsColours(std::move(part), textures), cellMin, context.model);
+    return atlas ? mesh.add(page, atlas->image, coloured) : mesh.add(coloured);
   });
   const size_t list = context.partition.leaves[context.tree.leafOf[cell]].list;
   FARCELL_TRY(context.partition.triangles.forEachPortion(

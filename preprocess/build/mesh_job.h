@@ -8,7 +8,7 @@
 
 namespace farcell {
 
-// Codes and stores the triangles of a leaf, in parts. textures as for bakeBatch: they become colours of vertices.
+// Codes and stores the triangles of a leaf, in parts. textures as for bakeBatch: each part gets an atlas of them.
 Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* textures);
 
 // Simplifies the meshes of an inner cell's children, which are stored, codes and stores the result. The cell gets no

@@ -9,6 +9,7 @@ struct Vertex {
   glm::uvec3 position;
   uint32_t colour;
   uint32_t normal;
+  uint32_t coordinates;
   bool operator==(const Vertex&) const = default;
 };
 
@@ -38,7 +39,8 @@ class VertexNumbers {
   size_t firstSlot(const Vertex& vertex) const {
     constexpr uint64_t kOdd = 0x9e3779b97f4a7c15;
     uint64_t hash = 0;
-    for (const uint32_t word : {vertex.position.x, vertex.position.y, vertex.position.z, vertex.colour, vertex.normal})
+    for (const uint32_t word :
+         {vertex.position.x, vertex.position.y, vertex.position.z, vertex.colour, vertex.normal, vertex.coordinates})
       hash = std::rotl((hash ^ word) * kOdd, 29);
     return (hash * kOdd >> 32) & (slots_.size() - 1);
   }
@@ -58,18 +60,20 @@ class VertexNumbers {
 
 }  // namespace
 
-GeometryPage geometryPage(std::span<const GridTriangle> triangles, GridPoint cellMin, const Model& model) {
+GeometryPage geometryPage(std::span<const GridTriangle> triangles, GridPoint cellMin, const Model& model,
+                          std::span<const std::array<uint32_t, 3>> coordinates) {
   GeometryPage page;
   page.indices.reserve(3 * triangles.size());
   VertexNumbers numbers(triangles.size());
-  for (const GridTriangle& triangle : triangles)
-    for (int k = 0; k < 3; ++k)
-      page.indices.push_back(
-          numbers.numberOf({glm::uvec3(triangle.corners[k] - cellMin), triangle.colours[k], triangle.normals[k]}));
+  for (size_t i = 0; i < triangles.size(); ++i)
+    for (size_t k = 0; k < 3; ++k)
+      page.indices.push_back(numbers.numberOf({glm::uvec3(triangles[i].corners[k] - cellMin), triangles[i].colours[k],
+                                               triangles[i].normals[k], coordinates.empty() ? 0 : coordinates[i][k]}));
   for (const Vertex& vertex : numbers.vertices()) {
     page.positions.push_back(vertex.position);
     if (model.hasColours) page.colours.push_back(vertex.colour);
     if (model.hasNormals) page.normals.push_back(vertex.normal);
+    if (!coordinates.empty()) page.coordinates.push_back(vertex.coordinates);
   }
   return page;
 }

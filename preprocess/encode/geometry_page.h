@@ -1,6 +1,7 @@
 // The full triangles of a leaf as a page.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "cache/pack/pages.h"
@@ -9,7 +10,9 @@
 
 namespace farcell {
 
-// Vertices are shared wherever position, colour and normal agree; what the model does not have is left out.
-GeometryPage geometryPage(std::span<const GridTriangle> triangles, GridPoint cellMin, const Model& model);
+// Vertices are shared wherever all that they have agrees; what the model does not have is left out.
+// coordinates: of each triangle's corners on the page's atlas (preprocess/atlas); empty: it has none.
+GeometryPage geometryPage(std::span<const GridTriangle> triangles, GridPoint cellMin, const Model& model,
+                          std::span<const std::array<uint32_t, 3>> coordinates = {});
 
 }  // namespace farcell

@@ -1,4 +1,4 @@
-// Textures as vertex colours: pages of full triangles have no others.
+// Textures as vertex colours: of what meshes of inner cells are made from, and where there is no room for an atlas.
 #pragma once
 
 #include <vector>

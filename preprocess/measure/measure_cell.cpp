@@ -81,7 +81,7 @@ class Measurement {
 
  private:
   Pair bake(const CellSoup& soup, glm::dvec3 direction, int edge, int samples) const {
-    ViewBaker baker({edge, samples, settings_.sun, false}, cell_.textures);
+    ViewBaker baker({edge, samples, settings_.sun, false}, &soup == cell_.mesh ? cell_.meshTextures : cell_.textures);
     BakedView front, back;
     baker.begin(viewFrame(direction));
     baker.add(soup);

@@ -25,6 +25,7 @@ struct MeasuredCell {
   const CellSoup& grown;  // with what lies around it: what views are baked from
   const CellSoup* mesh;   // of the pack; null: there is none
   TextureSampler* textures;
+  TextureSampler* meshTextures;  // of the mesh, which has its own
 };
 
 struct MeasureSettings {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cache/base/result.h"
+#include "preprocess/mesh/texture_source.h"
 
 namespace farcell {
 
@@ -17,6 +18,12 @@ struct TextureLookup {
   glm::vec2 alongX{0}, alongY{0};  // whole sides of the parallelogram; zero: a point
 };
 
+// Of its image; no size: it could not be read.
+struct TextureShape {
+  int width = 0, height = 0;
+  TextureWrap wrapU = TextureWrap::repeat, wrapV = TextureWrap::repeat;
+};
+
 // For one thread. The same lookup gives the same bits from any sampler of the same textures.
 class TextureSampler {
  public:
@@ -24,6 +31,7 @@ class TextureSampler {
   // Mean display values, R, G, B in [0, 1]: what a vertex colour is multiplied with. White, which changes no colour,
   // for a texture that could not be read. Numbers that are not finite are taken as zero.
   virtual glm::vec3 sample(const TextureLookup& lookup) = 0;
+  virtual TextureShape shape(uint32_t /*texture*/) const { return {}; }
   // Why what was sampled so far cannot be trusted: scratch could not be read.
   virtual const std::optional<Error>& failure() const = 0;
 };

@@ -106,6 +106,13 @@ glm::vec3 PyramidSampler::sample(const TextureLookup& lookup) {
   return sum / static_cast<float>(probes);
 }
 
+TextureShape PyramidSampler::shape(uint32_t texture) const {
+  FARCELL_CHECK(texture < pyramids_.size());
+  const Pyramid& pyramid = pyramids_[texture];
+  if (pyramid.levels.empty()) return {};
+  return {pyramid.levels[0].width, pyramid.levels[0].height, pyramid.wrapU, pyramid.wrapV};
+}
+
 // Between the two levels whose texels are next in size to `texelEdge` >= 1.
 glm::vec3 PyramidSampler::probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge) {
   const auto last = pyramid.levels.size() - 1;

@@ -18,6 +18,7 @@ class PyramidSampler final : public TextureSampler {
   PyramidSampler(std::span<const Pyramid> pyramids, const ScratchFile* tiles) : pyramids_(pyramids), tiles_(tiles) {}
 
   glm::vec3 sample(const TextureLookup& lookup) override;
+  TextureShape shape(uint32_t texture) const override;
   const std::optional<Error>& failure() const override { return tiles_.failure(); }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "cache/base/check.h"
 #include "runtime/draw/gpu_mesh.h"
@@ -20,6 +22,9 @@ constexpr std::array<uint16_t, 42> kCorners = {0, 4, 6, 0, 6, 2,   // low x
                                                0, 1, 3, 0, 3, 2};  // a rectangle
 constexpr GLsizei kBoxIndices = 36;
 constexpr GLsizei kRectangleIndices = 6;
+
+// Parts of a page may have finer texels than it has on average.
+constexpr double kFinerThanMean = 1.5;
 
 constexpr std::array<const char*, 4> kLookDefines = {"", "SHOW_TINT", "SHOW_DEPTH", "SHOW_NORMALS"};
 
@@ -59,7 +64,10 @@ Result<FramePainter> FramePainter::create(const PackFile& pack, const Viewpoints
 FramePainter::FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes)
     : pack_(pack),
       viewpoints_(viewpoints),
-      geometry_(residentBytes / 2),
+      textured_(std::any_of(pack.directory().cells.begin(), pack.directory().cells.end(),
+                            [](const CellRecord& cell) { return cell.texturePageCount > 0; })),
+      geometry_(textured_ ? residentBytes / 4 : residentBytes / 2, textured_),
+      atlases_(residentBytes / 4),
       views_(pack.directory().model.settings.imageSize, residentBytes / 2,
              pack.directory().model.settings.lighting == Lighting::relightable),
       uniforms_(createBuffer()),
@@ -79,11 +87,15 @@ Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
   if (model.hasNormals) triangleDefines.push_back("SMOOTH_NORMALS");
   if (model.settings.lighting == Lighting::relightable) defines.push_back("RELIGHTABLE");
   Programs programs;
-  FARCELL_ASSIGN(programs.triangles,
-                 loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
-  triangleDefines.push_back("SHARES");
-  FARCELL_ASSIGN(programs.sharedTriangles,
-                 loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", triangleDefines}));
+  for (const bool shared : {false, true})
+    for (const bool textured : {false, true}) {
+      if (textured && !textured_) continue;
+      std::vector<std::string> some = triangleDefines;
+      if (shared) some.push_back("SHARES");
+      if (textured) some.push_back("TEXTURED");
+      FARCELL_ASSIGN(programs.triangles[trianglesOf(shared, textured)],
+                     loadProgram({"shaders/gl/triangles.vert", "shaders/gl/triangles.frag", some}));
+    }
   FARCELL_ASSIGN(programs.flat,
                  loadProgram({"shaders/gl/impostor_flat.vert", "shaders/gl/impostor_flat.frag", defines}));
   std::vector<std::string> marchDefines = defines;
@@ -124,6 +136,7 @@ Result<> FramePainter::paintTriangles(const Frame& frame) {
   glDepthMask(GL_TRUE);
   Portions portions;
   geometry_.beginPortion();
+  atlases_.beginPortion();
   for (size_t i = 0; i < frame.cut.entries.size(); ++i) {
     const CutEntry& entry = frame.cut.entries[i];
     const CellRecord& cell = pack_.directory().cells[entry.cell];
@@ -134,9 +147,12 @@ Result<> FramePainter::paintTriangles(const Frame& frame) {
     for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
       const uint32_t index = cell.firstGeometryPage + part;
       FARCELL_TRY(addPage(index, frame, portions));
+      const auto atlas = pack_.atlasPages(entry.cell, part);
+      if (!atlas.empty()) FARCELL_TRY(addAtlas(index, cell, frame, portions));
       const bool shared = entry.shares != kAllShares;
-      Portion& portion = shared ? portions.shared : portions.whole;
+      Portion& portion = portions[trianglesOf(shared, !atlas.empty())];
       portion.pages.push_back(index);
+      if (!atlas.empty()) portion.atlases.push_back(numberOf(atlas));
       if (shared || !frame.plan.tints.empty()) portion.tints.push_back(tint);
     }
   }
@@ -151,6 +167,7 @@ Result<> FramePainter::addPage(uint32_t index, const Frame& frame, Portions& por
   FARCELL_ASSIGN(const GeometryPage page, pack_.readGeometry(index));
   frame.counts.bytesRead += directory.pages[index].storedBytes;
   const CellRecord& cell = directory.cells[directory.pages[index].cell];
+  if (!page.coordinates.empty()) atlasEdgesPerStep_[index] = atlasEdgesPerStep(page);
   const GpuMesh mesh = makeGpuMesh(page, cellBox(directory.model.grid, cell.key).min);
   if (geometry_.add(index, mesh)) return {};
   drawPortions(frame, portions);
@@ -159,11 +176,81 @@ Result<> FramePainter::addPage(uint32_t index, const Frame& frame, Portions& por
   return {};
 }
 
+// The atlas of a resident page, likewise; then as fine as the page needs it from here and there is room for.
+Result<> FramePainter::addAtlas(uint32_t page, const CellRecord& cell, const Frame& frame, Portions& portions) {
+  const PageRecord& record = pack_.directory().pages[page];
+  const uint32_t number = numberOf(pack_.atlasPages(record.cell, record.group));
+  if (atlases_.keep(number) == nullptr) {
+    FARCELL_ASSIGN(const TexturePage coarse, readAtlasPage(number, frame.counts));
+    if (atlases_.add(number, coarse) == nullptr) {
+      drawPortions(frame, portions);
+      geometry_.beginPortion();
+      atlases_.beginPortion();
+      FARCELL_CHECK(geometry_.keep(page) && atlases_.add(number, coarse) != nullptr);
+    }
+  }
+  return refineAtlas(page, cell, frame);
+}
+
+Result<> FramePainter::refineAtlas(uint32_t page, const CellRecord& cell, const Frame& frame) {
+  const PageRecord& record = pack_.directory().pages[page];
+  const std::span<const PageRecord> pages = pack_.atlasPages(record.cell, record.group);
+  const uint32_t number = numberOf(pages);
+  const AtlasStore::Resident& resident = *atlases_.keep(number);
+  const uint32_t level = atlases_.finestLevel(number, wantedLevel(page, cell, frame, resident.shape));
+  if (level >= resident.firstLevel) return {};
+  // Each page after the first holds the level before.
+  const uint32_t coarse = firstCoarseLevel(resident.shape);
+  std::vector<TexturePage> finer;
+  for (uint32_t next = resident.firstLevel; next-- > level;) {
+    const uint32_t group = coarse - next;
+    if (group >= pages.size())
+      return fail(ErrorKind::corrupt, "{}: page {}: expected an atlas with level {}", pack_.path(), number, next);
+    FARCELL_ASSIGN(TexturePage read, readAtlasPage(number + group, frame.counts));
+    if (read.width != resident.shape.width || read.height != resident.shape.height ||
+        read.channels != resident.shape.channels || read.firstLevel != next)
+      return fail(ErrorKind::corrupt, "{}: page {}: expected level {} of the atlas of page {}", pack_.path(),
+                  number + group, next, number);
+    finer.push_back(std::move(read));
+  }
+  atlases_.refine(number, finer);
+  return {};
+}
+
+// By the nearest point of what the cell holds.
+uint32_t FramePainter::wantedLevel(uint32_t page, const CellRecord& cell, const Frame& frame,
+                                   const TexturePage& atlas) const {
+  glm::dvec3 away;
+  for (int axis = 0; axis < 3; ++axis)
+    away[axis] = std::max({cell.content.min[axis] - frame.camera.eyeSteps[axis],
+                           frame.camera.eyeSteps[axis] - cell.content.max[axis], 0.0});
+  const double pixelSteps = glm::length(away) * frame.camera.pixelAngle;
+  const double texelsPerStep = atlasEdgesPerStep_.at(page) * std::sqrt(static_cast<double>(atlas.width) * atlas.height);
+  double texelsPerPixel = pixelSteps * texelsPerStep / kFinerThanMean;
+  uint32_t level = 0;
+  for (; level + 1 < atlas.levelCount && texelsPerPixel >= 2; texelsPerPixel /= 2) ++level;
+  return level;
+}
+
+Result<TexturePage> FramePainter::readAtlasPage(uint32_t page, PaintCounts& counts) const {
+  counts.bytesRead += pack_.directory().pages[page].storedBytes;
+  return pack_.readTexture(page);
+}
+
+uint32_t FramePainter::numberOf(std::span<const PageRecord> atlas) const {
+  return static_cast<uint32_t>(atlas.data() - pack_.directory().pages.data());
+}
+
 void FramePainter::drawPortions(const Frame& frame, Portions& portions) {
-  glUseProgram(frame.programs.triangles.name());
-  geometry_.draw(portions.whole.pages, portions.whole.tints);
-  glUseProgram(frame.programs.sharedTriangles.name());
-  geometry_.draw(portions.shared.pages, portions.shared.tints);
+  for (size_t i = 0; i < portions.size(); ++i) {
+    const Portion& portion = portions[i];
+    if (portion.pages.empty()) continue;
+    // Not before: an atlas that became finer is another texture.
+    std::vector<GLuint> atlases;
+    for (const uint32_t number : portion.atlases) atlases.push_back(atlases_.keep(number)->texture);
+    glUseProgram(frame.programs.triangles[i].name());
+    geometry_.draw(portion.pages, portion.tints, atlases);
+  }
   portions = {};
 }
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
 #include "cache/schema/viewpoints.h"
+#include "runtime/draw/atlas_store.h"
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/geometry_store.h"
 #include "runtime/draw/impostor_instance.h"
@@ -37,8 +39,7 @@ class FramePainter {
 
  private:
   struct Programs {
-    GlProgram triangles;
-    GlProgram sharedTriangles;  // for some of the samples
+    std::array<GlProgram, 4> triangles;  // by trianglesOf()
     GlProgram flat;
     GlProgram depthCorrected;
     GlProgram blended;
@@ -60,11 +61,17 @@ class FramePainter {
   struct Portion {
     std::vector<uint32_t> pages;
     std::vector<GeometryStore::Tint> tints;
+    std::vector<uint32_t> atlases;  // their numbers
   };
-  struct Portions {
-    Portion whole, shared;  // for all samples, for some
-  };
+  using Portions = std::array<Portion, 4>;  // by trianglesOf()
+  // For all samples or for some of them; without or with an atlas.
+  static size_t trianglesOf(bool shared, bool textured) { return (shared ? 1u : 0u) + (textured ? 2u : 0u); }
   Result<> paintTriangles(const Frame& frame);
+  Result<> addAtlas(uint32_t page, const CellRecord& cell, const Frame& frame, Portions& portions);
+  Result<> refineAtlas(uint32_t page, const CellRecord& cell, const Frame& frame);
+  uint32_t wantedLevel(uint32_t page, const CellRecord& cell, const Frame& frame, const TexturePage& atlas) const;
+  uint32_t numberOf(std::span<const PageRecord> atlas) const;  // index of its first page
+  Result<TexturePage> readAtlasPage(uint32_t page, PaintCounts& counts) const;
   Result<> addPage(uint32_t index, const Frame& frame, Portions& portions);
   void drawPortions(const Frame& frame, Portions& portions);
   Result<std::optional<ImpostorViews>> residentViews(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
@@ -77,7 +84,10 @@ class FramePainter {
   const Viewpoints& viewpoints_;
   std::array<std::optional<Programs>, 4> programs_;  // by look, each made with the first frame that has it
   std::optional<LinePainter> linePainter_;           // likewise
+  const bool textured_;                              // some leaf has an atlas
   GeometryStore geometry_;
+  AtlasStore atlases_;
+  std::unordered_map<uint32_t, double> atlasEdgesPerStep_;  // of pages with an atlas that were resident
   ViewStore views_;
   GlBuffer uniforms_;
   GlBuffer instances_;

@@ -12,7 +12,7 @@ namespace {
 // A chunk's shares: flat-shaded meshes have about as many vertices as triangles.
 constexpr uint64_t kChunkVertices = 400'000;
 constexpr uint64_t kChunkIndices = 1'200'000;
-constexpr uint64_t kChunkBytes = kChunkVertices * sizeof(GpuVertex) + kChunkIndices * sizeof(uint32_t);
+uint64_t chunkBytes(uint64_t vertexBytes) { return kChunkVertices * vertexBytes + kChunkIndices * sizeof(uint32_t); }
 
 // Layout fixed by OpenGL (glMultiDrawElementsIndirect).
 struct DrawCommand {
@@ -25,6 +25,9 @@ struct DrawCommand {
 
 constexpr GLuint kTintAttribute = 3;
 constexpr GLuint kTintBinding = 1;
+constexpr GLuint kCoordinatesAttribute = 4;
+constexpr GLuint kCoordinatesBinding = 2;
+constexpr GLuint kAtlasUnit = 3;
 
 GlVertexArray createLayout() {
   GlVertexArray layout = createVertexArray();
@@ -39,10 +42,17 @@ GlVertexArray createLayout() {
   glVertexArrayAttribFormat(name, kTintAttribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0);
   glVertexArrayAttribBinding(name, kTintAttribute, kTintBinding);
   glVertexArrayBindingDivisor(name, kTintBinding, 1);
+  glVertexArrayAttribFormat(name, kCoordinatesAttribute, 2, GL_UNSIGNED_SHORT, GL_TRUE, 0);
+  glVertexArrayAttribBinding(name, kCoordinatesAttribute, kCoordinatesBinding);
   return layout;
 }
 
 }  // namespace
+
+GeometryStore::GeometryStore(uint64_t budgetBytes, bool textured)
+    : budgetBytes_(budgetBytes),
+      textured_(textured),
+      vertexBytes_(sizeof(GpuVertex) + (textured ? sizeof(uint32_t) : 0)) {}
 
 bool GeometryStore::keep(uint32_t page) {
   const auto found = residents_.find(page);
@@ -53,9 +63,10 @@ bool GeometryStore::keep(uint32_t page) {
 
 bool GeometryStore::add(uint32_t page, const GpuMesh& mesh) {
   FARCELL_CHECK(!mesh.indices.empty() && residents_.count(page) == 0);
-  const uint64_t needBytes = mesh.vertices.size() * sizeof(GpuVertex) + mesh.indices.size() * sizeof(uint32_t);
+  FARCELL_CHECK(textured_ || mesh.coordinates.empty());
+  const uint64_t needBytes = mesh.vertices.size() * vertexBytes_ + mesh.indices.size() * sizeof(uint32_t);
   while (!place(page, mesh)) {
-    if (usedBytes_ + std::max(needBytes, std::min(kChunkBytes, budgetBytes_)) <= budgetBytes_) {
+    if (usedBytes_ + std::max(needBytes, std::min(chunkBytes(vertexBytes_), budgetBytes_)) <= budgetBytes_) {
       addChunk(mesh);
     } else if (!evictOldest()) {
       if (!residents_.empty()) return false;
@@ -80,6 +91,9 @@ bool GeometryStore::place(uint32_t page, const GpuMesh& mesh) {
                          static_cast<GLsizeiptr>(vertexCount * sizeof(GpuVertex)), mesh.vertices.data());
     glNamedBufferSubData(chunk->indices.name(), static_cast<GLintptr>(*firstIndex * sizeof(uint32_t)),
                          static_cast<GLsizeiptr>(indexCount * sizeof(uint32_t)), mesh.indices.data());
+    if (!mesh.coordinates.empty())
+      glNamedBufferSubData(chunk->coordinates.name(), static_cast<GLintptr>(*firstVertex * sizeof(uint32_t)),
+                           static_cast<GLsizeiptr>(vertexCount * sizeof(uint32_t)), mesh.coordinates.data());
     residents_[page] = {chunk, *firstVertex, vertexCount, *firstIndex, indexCount, portion_};
     return true;
   }
@@ -88,14 +102,16 @@ bool GeometryStore::place(uint32_t page, const GpuMesh& mesh) {
 
 void GeometryStore::addChunk(const GpuMesh& mesh) {
   // A small budget gets smaller chunks; a mesh larger than a chunk one of its own.
-  const uint64_t bytes = std::min(kChunkBytes, budgetBytes_);
-  const auto vertices =
-      static_cast<uint32_t>(std::max<uint64_t>(mesh.vertices.size(), kChunkVertices * bytes / kChunkBytes));
-  const auto indices =
-      static_cast<uint32_t>(std::max<uint64_t>(mesh.indices.size(), kChunkIndices * bytes / kChunkBytes));
-  const uint64_t sizeBytes = vertices * sizeof(GpuVertex) + indices * sizeof(uint32_t);
-  chunks_.push_back({createBuffer(), createBuffer(), RangeAllocator(vertices), RangeAllocator(indices), sizeBytes});
+  const uint64_t most = chunkBytes(vertexBytes_), bytes = std::min(most, budgetBytes_);
+  const auto vertices = static_cast<uint32_t>(std::max<uint64_t>(mesh.vertices.size(), kChunkVertices * bytes / most));
+  const auto indices = static_cast<uint32_t>(std::max<uint64_t>(mesh.indices.size(), kChunkIndices * bytes / most));
+  const uint64_t sizeBytes = vertices * vertexBytes_ + indices * sizeof(uint32_t);
+  chunks_.push_back({createBuffer(), createBuffer(), textured_ ? createBuffer() : GlBuffer(), RangeAllocator(vertices),
+                     RangeAllocator(indices), sizeBytes});
   const Chunk& chunk = chunks_.back();
+  if (textured_)
+    glNamedBufferStorage(chunk.coordinates.name(), static_cast<GLsizeiptr>(vertices * sizeof(uint32_t)), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(chunk.vertices.name(), static_cast<GLsizeiptr>(vertices * sizeof(GpuVertex)), nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferStorage(chunk.indices.name(), static_cast<GLsizeiptr>(indices * sizeof(uint32_t)), nullptr,
@@ -127,28 +143,43 @@ void GeometryStore::bindTints(const std::vector<Tint>& tints) {
   glEnableVertexArrayAttrib(layout_.name(), kTintAttribute);
 }
 
-void GeometryStore::draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints) {
+void GeometryStore::bindChunk(const Chunk& chunk, bool coordinates) {
+  glVertexArrayVertexBuffer(layout_.name(), 0, chunk.vertices.name(), 0, sizeof(GpuVertex));
+  glVertexArrayElementBuffer(layout_.name(), chunk.indices.name());
+  if (coordinates)
+    glVertexArrayVertexBuffer(layout_.name(), kCoordinatesBinding, chunk.coordinates.name(), 0, sizeof(uint32_t));
+}
+
+void GeometryStore::draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints,
+                         const std::vector<GLuint>& atlases) {
   if (pages.empty()) return;
   FARCELL_CHECK(tints.empty() || tints.size() == pages.size());
+  FARCELL_CHECK(atlases.empty() || atlases.size() == pages.size());
   if (!layout_) layout_ = createLayout();
   if (!commands_) commands_ = createBuffer();
   bindTints(tints);
-  std::map<const Chunk*, std::vector<DrawCommand>> perChunk;
+  // What is drawn at once: of one buffer, looking at one atlas.
+  using Together = std::pair<const Chunk*, GLuint>;
+  std::map<Together, std::vector<DrawCommand>> batches;
   for (uint32_t i = 0; i < pages.size(); ++i) {
     const Resident& resident = residents_.at(pages[i]);
-    perChunk[&*resident.chunk].push_back(
+    batches[{&*resident.chunk, atlases.empty() ? 0 : atlases[i]}].push_back(
         {resident.indexCount, 1, resident.firstIndex, static_cast<int32_t>(resident.firstVertex), i});
   }
   std::vector<DrawCommand> commands;
-  for (const auto& [chunk, list] : perChunk) commands.insert(commands.end(), list.begin(), list.end());
+  for (const auto& [together, list] : batches) commands.insert(commands.end(), list.begin(), list.end());
   glNamedBufferData(commands_.name(), static_cast<GLsizeiptr>(commands.size() * sizeof(DrawCommand)), commands.data(),
                     GL_STREAM_DRAW);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
   glBindVertexArray(layout_.name());
+  (atlases.empty() ? glDisableVertexArrayAttrib : glEnableVertexArrayAttrib)(layout_.name(), kCoordinatesAttribute);
   size_t first = 0;
-  for (const auto& [chunk, list] : perChunk) {
-    glVertexArrayVertexBuffer(layout_.name(), 0, chunk->vertices.name(), 0, sizeof(GpuVertex));
-    glVertexArrayElementBuffer(layout_.name(), chunk->indices.name());
+  const Chunk* bound = nullptr;
+  for (const auto& [together, list] : batches) {
+    const auto& [chunk, atlas] = together;
+    if (chunk != bound) bindChunk(*chunk, !atlases.empty());
+    bound = chunk;
+    if (atlas != 0) glBindTextureUnit(kAtlasUnit, atlas);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
                                 static_cast<GLsizei>(list.size()), 0);

@@ -18,8 +18,8 @@ namespace farcell {
 
 class GeometryStore {
  public:
-  // One page is always held, also when it alone is larger than the budget.
-  explicit GeometryStore(uint64_t budgetBytes) : budgetBytes_(budgetBytes) {}
+  // One page is always held, also when it alone is larger than the budget. textured: pages may have an atlas.
+  explicit GeometryStore(uint64_t budgetBytes, bool textured = false);
 
   void beginPortion() { ++portion_; }
   // Keeps a resident page for this portion; false when it is not resident.
@@ -29,8 +29,10 @@ class GeometryStore {
   // Draws resident pages kept in this portion, with the bound program: one multi-draw for each buffer they lie in.
   // `tints`: of each page, at location 3: a colour and the shares of the cut (hand_over.h) that it is for; empty: the
   // program asks for none.
+  // `atlases`: the texture of each page, which has an atlas: bound to unit 3, coordinates at location 4; empty: the
+  // program asks for none.
   using Tint = std::array<uint8_t, 4>;
-  void draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints);
+  void draw(const std::vector<uint32_t>& pages, const std::vector<Tint>& tints, const std::vector<GLuint>& atlases);
 
   uint64_t usedBytes() const { return usedBytes_; }
 
@@ -39,6 +41,7 @@ class GeometryStore {
   struct Chunk {
     GlBuffer vertices;
     GlBuffer indices;
+    GlBuffer coordinates;  // of textured stores
     RangeAllocator vertexRanges;
     RangeAllocator indexRanges;
     uint64_t sizeBytes;
@@ -54,9 +57,12 @@ class GeometryStore {
   bool place(uint32_t page, const GpuMesh& mesh);
   void addChunk(const GpuMesh& mesh);
   bool evictOldest();
+  void bindChunk(const Chunk& chunk, bool coordinates);
   void bindTints(const std::vector<Tint>& tints);
 
   uint64_t budgetBytes_;
+  bool textured_;
+  uint64_t vertexBytes_;
   uint64_t usedBytes_ = 0;
   uint64_t portion_ = 0;
   std::list<Chunk> chunks_;

@@ -44,6 +44,7 @@ void assignFlatNormals(GpuMesh& mesh, std::span<const uint32_t> shown) {
     if (chosen == 3) {
       mesh.indices[first + 2] = static_cast<uint32_t>(mesh.vertices.size());
       mesh.vertices.push_back(mesh.vertices[corners[last]]);
+      if (!mesh.coordinates.empty()) mesh.coordinates.push_back(mesh.coordinates[corners[last]]);
       owned.push_back(true);
     }
     owned[mesh.indices[first + 2]] = true;
@@ -64,6 +65,25 @@ glm::vec3 faceNormal(GridPoint a, GridPoint b, GridPoint c) {
   return length > 0 ? glm::vec3(cross / length) : glm::vec3(0, 0, 1);
 }
 
+double atlasEdgesPerStep(const GeometryPage& page) {
+  if (page.coordinates.empty()) return 0;
+  const auto onAtlas = [&](uint32_t vertex) {
+    const uint32_t packed = page.coordinates[vertex];
+    return glm::dvec2(packed & 0xffff, packed >> 16) / 65535.0;
+  };
+  double onImage = 0, surface = 0;  // twice the areas
+  for (size_t i = 0; i + 2 < page.indices.size(); i += 3) {
+    const uint32_t a = page.indices[i], b = page.indices[i + 1], c = page.indices[i + 2];
+    const glm::dvec2 u = onAtlas(b) - onAtlas(a), v = onAtlas(c) - onAtlas(a);
+    const double area = std::abs(u.x * v.y - u.y * v.x);
+    if (area == 0) continue;
+    const glm::dvec3 from(page.positions[a]);
+    onImage += area;
+    surface += glm::length(glm::cross(glm::dvec3(page.positions[b]) - from, glm::dvec3(page.positions[c]) - from));
+  }
+  return surface > 0 ? std::sqrt(onImage / surface) : 0;
+}
+
 GpuMesh makeGpuMesh(const GeometryPage& page, GridPoint origin) {
   GpuMesh mesh;
   mesh.vertices.resize(page.positions.size());
@@ -74,6 +94,7 @@ GpuMesh makeGpuMesh(const GeometryPage& page, GridPoint origin) {
     vertex.colour = (page.colours.empty() ? albedo : page.colours[i]) | kOpaque;
     if (!page.normals.empty()) vertex.normal = page.normals[i];
   }
+  mesh.coordinates = page.coordinates;
   mesh.indices = page.indices;
   if (page.normals.empty()) assignFlatNormals(mesh, page.shown);
   return mesh;

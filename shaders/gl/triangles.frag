@@ -21,17 +21,42 @@ flat in int shares;
 #ifdef SHOW_NORMALS
 in vec3 along;
 #endif
+#ifdef TEXTURED
+centroid in vec2 onAtlas;
+layout(binding = 3) uniform sampler2D atlas;
+
+// Several probes along a footprint that is longer than wide (preprocess/atlas/atlas_sampler.cpp does the same). Not the
+// driver's anisotropic filter: Mesa's software renderer takes 30 times as long for it.
+vec3 atlasColour() {
+  vec2 size = vec2(textureSize(atlas, 0)), alongX = dFdx(onAtlas), alongY = dFdy(onAtlas);
+  float across = length(alongX * size), up = length(alongY * size);
+  float major = max(across, up);
+  float probes = major > 1.0 ? clamp(ceil(major / max(min(across, up), 1.0) - 0.001), 1.0, kMostProbes) : 1.0;
+  float level = log2(max(major, 1e-6) / probes) + kAtlasLodBias;
+  if (probes == 1.0) return textureLod(atlas, onAtlas, level).rgb;
+  vec2 axis = across >= up ? alongX : alongY;
+  vec3 sum = vec3(0.0);
+  for (float i = 0.5; i < probes; ++i)
+    sum += textureLod(atlas, onAtlas + (i / probes - 0.5) * axis, level).rgb;
+  return sum / probes;
+}
+#endif
 
 layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
 
 void main() {
+#ifdef TEXTURED
+  vec3 surface = albedo * atlasColour();
+#else
+  vec3 surface = albedo;
+#endif
 #ifdef SMOOTH_NORMALS
   vec3 unit = normalize(surfaceNormal);
-  colour = vec4(shade(albedo, unit, frame.light.xyz), 1.0);
+  colour = vec4(shade(surface, unit, frame.light.xyz), 1.0);
 #else
   vec3 unit = faceNormal;
-  colour = vec4(mix(albedo * light, shown.rgb, shown.a), 1.0);
+  colour = vec4(mix(surface * light, shown.rgb, shown.a), 1.0);
 #endif
 #if defined(SHOW_TINT)
   colour = tinted(colour, tint);

@@ -2,6 +2,7 @@
 // cells on both sides of a shared corner, so that no cracks open.
 //
 // SHARES: for some of the samples only (hand_over.h).
+// TEXTURED: the colour is multiplied with an atlas.
 // SHOW_TINT, SHOW_DEPTH, SHOW_NORMALS: what shaders/shared/show.h says, instead of the picture.
 #include "shaders/shared/draw.h"
 #include "shaders/shared/shading.h"
@@ -18,6 +19,10 @@ flat out int shares;
 #endif
 #ifdef SHOW_NORMALS
 out vec3 along;  // from the eye
+#endif
+#ifdef TEXTURED
+layout(location = 4) in vec2 coordinates;  // on the atlas
+centroid out vec2 onAtlas;                 // not beyond the triangle, where the atlas holds something else
 #endif
 
 out vec3 albedo;
@@ -48,5 +53,8 @@ void main() {
 #endif
 #ifdef SHOW_NORMALS
   along = relative;
+#endif
+#ifdef TEXTURED
+  onAtlas = coordinates;
 #endif
 }

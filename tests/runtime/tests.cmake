@@ -5,5 +5,6 @@ farcell_tests(runtime/selection DEPS farcell_runtime_selection APART hand_over_t
 farcell_tests(runtime/draw DEPS farcell_runtime_draw)
 farcell_tests(runtime/occlusion DEPS farcell_runtime_occlusion)
 farcell_tests(runtime/calibration DEPS farcell_runtime_calibration)
-farcell_tests(runtime DEPS farcell_runtime farcell_preprocess_build farcell_datasets_city farcell_tests_support APART show_gl_test.cpp
-              compose_gl_test.cpp relight_gl_test.cpp)
+farcell_tests(runtime DEPS farcell_runtime farcell_preprocess_build farcell_datasets_city farcell_tests_support
+                            farcell_tests_support_images
+                       APART show_gl_test.cpp compose_gl_test.cpp relight_gl_test.cpp)

@@ -46,7 +46,7 @@ layers() {
       for (i in formats) add("preprocess/read/" formats[i] "/", "preprocess", 9)
       add("preprocess/read/", "preprocess", 10); add("preprocess/partition/", "preprocess", 11)
       add("preprocess/lod/", "preprocess", 11); add("preprocess/bake/", "preprocess", 11)
-      add("preprocess/choose/", "preprocess", 11)
+      add("preprocess/choose/", "preprocess", 11); add("preprocess/atlas/", "preprocess", 12)
       add("preprocess/encode/", "preprocess", 14); add("preprocess/measure/", "preprocess", 15)
       add("preprocess/build/", "preprocess", 16)
       add("runtime/gl/", "runtime", 9)
@@ -88,6 +88,7 @@ dependencies() {
   heavy Embree '[<"]embree[0-9]*/' '^(tools/evaluate|tests)/'
   heavy OpenImageIO '[<"]OpenImageIO/' '^(preprocess/texture|tools/extract|tests/support)/'
   heavy meshoptimizer '[<"]meshoptimizer' '^(cache/pack|preprocess/lod|preprocess/read/gltf|tests)/'
+  heavy stb '[<"]stb/' '^preprocess/atlas/'
   heavy OpenMesh '[<"]OpenMesh/' '^preprocess/lod/'
   heavy zlib '[<"](libdeflate|zlib)\.h' '^(cache/pack|tests)/'
   heavy 'WebP, LZMA' '[<"](webp/|lzma\.h)' '^tests/bench/'

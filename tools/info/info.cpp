@@ -139,16 +139,19 @@ void appendText(std::string& text, const std::string& key, const Json& value, si
 
 Json packInfoJson(const PackFile& pack) {
   const Directory& directory = pack.directory();
-  const auto geometryPages = std::count_if(directory.pages.begin(), directory.pages.end(),
-                                           [](const PageRecord& page) { return page.kind == PageKind::geometry; });
+  const auto pagesOf = [&](PageKind kind) {
+    return std::count_if(directory.pages.begin(), directory.pages.end(),
+                         [&](const PageRecord& page) { return page.kind == kind; });
+  };
   Json json = buildReportJson(directory, pack.sizeBytes(), nullptr, nullptr);
   json["format"] = {{"version", kPackVersion}};
   json["model"] = modelJson(directory);
   json["settings"] = settingsJson(directory.model.settings);
   json["levels"] = levelsJson(directory);
   json["errors"] = errorsJson(directory);
-  json["pages"] = {{"geometry", geometryPages},
-                   {"views", static_cast<int64_t>(directory.pages.size()) - geometryPages}};
+  json["pages"] = {{"geometry", pagesOf(PageKind::geometry)},
+                   {"views", pagesOf(PageKind::views)},
+                   {"textures", pagesOf(PageKind::texture)}};
   return json;
 }
 

@@ -29,7 +29,7 @@ void addOptions(CLI::App& app, RepackOptions& options) {
 }
 
 nlohmann::ordered_json bytesJson(const PackBytes& bytes) {
-  return {{"pack", bytes.pack}, {"impostors", bytes.impostors}, {"geometry", bytes.geometry}};
+  return {{"pack", bytes.pack}, {"impostors", bytes.impostors}, {"geometry", bytes.geometry}, {"textures", bytes.textures}};
 }
 
 std::string changeText(const char* what, uint64_t before, uint64_t after) {
@@ -52,6 +52,8 @@ Result<> run(const RepackOptions& options) {
   }
   std::fputs(changeText("impostors", result.before.impostors, result.after.impostors).c_str(), stdout);
   std::fputs(changeText("geometry", result.before.geometry, result.after.geometry).c_str(), stdout);
+  if (result.before.textures > 0)
+    std::fputs(changeText("textures", result.before.textures, result.after.textures).c_str(), stdout);
   std::fputs(changeText("pack", result.before.pack, result.after.pack).c_str(), stdout);
   return {};
 }

@@ -45,7 +45,8 @@ Json buildReportJson(const Directory& directory, uint64_t packBytes, const Build
   json["bytes"] = {{"pack", packBytes},
                    {"impostors", report.impostorBytes},
                    {"impostorsRaw", report.impostorRawBytes},
-                   {"geometry", report.geometryBytes}};
+                   {"geometry", report.geometryBytes},
+                   {"textures", report.textureBytes}};
   json["seconds"] = secondsJson(timesOrNull);
   json["peakRssBytes"] = peakRssOrNull == nullptr ? Json() : Json(*peakRssOrNull);
   return json;

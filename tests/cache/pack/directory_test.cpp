@@ -207,7 +207,7 @@ TEST_F(LyingDirectory, IsRefusedForItsContent) {
 
 TEST_F(LyingDirectory, IsRefusedForWhatItsCellsSayOfPages) {
   expectRefused(
-      "geometry out of range", [](Directory& d) { d.cells[1].firstGeometryPage = 5; }, "its own geometry");
+      "geometry out of range", [](Directory& d) { d.cells[1].firstGeometryPage = 7; }, "its own geometry");
   expectRefused(
       "geometry of another", [](Directory& d) { d.cells[1].firstGeometryPage = 3; }, "its own geometry");
   expectRefused(
@@ -242,13 +242,13 @@ TEST_F(LyingDirectory, IsRefusedForWhatItsCellsSayOfPages) {
       },
       "its own geometry");
   expectRefused(
-      "views out of range", [](Directory& d) { d.cells[2].viewPageCount = 2; }, "pages of views below 5");
+      "views out of range", [](Directory& d) { d.cells[2].viewPageCount = 4; }, "pages of views below 7");
   expectRefused(
-      "views that wrap", [](Directory& d) { d.cells[2].viewPageCount = kNone - 1; }, "pages of views below 5");
+      "views that wrap", [](Directory& d) { d.cells[2].viewPageCount = kNone - 1; }, "pages of views below 7");
   expectRefused(
-      "first without count", [](Directory& d) { d.cells[2].viewPageCount = 0; }, "pages of views below 5");
+      "first without count", [](Directory& d) { d.cells[2].viewPageCount = 0; }, "pages of views below 7");
   expectRefused(
-      "count without first", [](Directory& d) { d.cells[2].firstViewPage = kNone; }, "pages of views below 5");
+      "count without first", [](Directory& d) { d.cells[2].firstViewPage = kNone; }, "pages of views below 7");
   expectRefused(
       "views of another", [](Directory& d) { d.cells[2].firstViewPage = 1; }, "its own views");
   expectRefused(
@@ -257,8 +257,42 @@ TEST_F(LyingDirectory, IsRefusedForWhatItsCellsSayOfPages) {
       "a page no cell names", [](Directory& d) { d.cells[0].viewPageCount = 1; }, "page 1");
 }
 
+TEST_F(LyingDirectory, IsRefusedForItsTextures) {
+  expectRefused(
+      "out of range", [](Directory& d) { d.cells[1].texturePageCount = 3; }, "pages of textures below 7");
+  expectRefused(
+      "first without count", [](Directory& d) { d.cells[2].texturePageCount = 0; }, "pages of textures below 7");
+  expectRefused(
+      "an inner cell's",
+      [](Directory& d) {
+        d.cells[0].firstTexturePage = 5;
+        d.cells[0].texturePageCount = 2;
+      },
+      "of leaves only");
+  expectRefused(
+      "not all of another's", [](Directory& d) { d.cells[2].texturePageCount = 1; }, "of a cell before it");
+  expectRefused(
+      "of a cell after it", [](Directory& d) { d.pages[5].cell = d.pages[6].cell = 2; }, "of a cell before it");
+  expectRefused(
+      "views", [](Directory& d) { d.cells[1].firstTexturePage = d.cells[2].firstTexturePage = 4; }, "textures");
+  expectRefused(
+      "groups that do not begin", [](Directory& d) { d.pages[5].group = 1; }, "from group 0 on");
+  expectRefused(
+      "groups with a gap", [](Directory& d) { d.pages[6].group = 2; }, "from group 0 on");
+  expectRefused(
+      "of a part that is not there", [](Directory& d) { d.pages[6].group = 8; }, "of its parts");
+  expectRefused(
+      "a page no cell names",
+      [](Directory& d) {
+        for (const size_t leaf : {1, 2}) d.cells[leaf].texturePageCount = 1;
+      },
+      "page 6");
+  expectRefused(
+      "report", [](Directory& d) { ++d.report.textureBytes; }, "of textures");
+}
+
 TEST_F(LyingDirectory, IsRefusedForItsPages) {
-  expectRefused("kind", [](Directory& d) { d.pages[0].kind = static_cast<PageKind>(3); });
+  expectRefused("kind", [](Directory& d) { d.pages[0].kind = static_cast<PageKind>(4); });
   expectRefused("cell", [](Directory& d) { d.pages[0].cell = 3; });
   expectRefused(
       "group", [](Directory& d) { d.pages[4].group = 12; }, "a rising group below 12");
@@ -275,17 +309,16 @@ TEST_F(LyingDirectory, IsRefusedForItsPages) {
   expectRefused(
       "no bytes", [](Directory& d) { d.pages[0].storedBytes = 0; }, "at offset");
   expectRefused(
-      "past the directory", [](Directory& d) { d.pages[4].storedBytes += 1; }, "at offset");
+      "past the directory", [](Directory& d) { d.pages[6].storedBytes += 1; }, "at offset");
   expectRefused(
-      "huge", [](Directory& d) { d.pages[4].storedBytes = ~0u; }, "at offset");
+      "huge", [](Directory& d) { d.pages[6].storedBytes = ~0u; }, "at offset");
   expectRefused(
       "decodes to too much", [](Directory& d) { d.pages[1].decodedBytes = ~0u; }, "decoded bytes");
   expectRefused(
       "a page missing",
       [](Directory& d) {
         d.pages.pop_back();
-        d.cells[2].firstViewPage = kNone;
-        d.cells[2].viewPageCount = 0;
+        for (const size_t leaf : {1, 2}) d.cells[leaf].texturePageCount = 1;
       },
       "pages up to the directory");
   expectRefused(
@@ -319,7 +352,7 @@ TEST_F(LyingDirectory, IsFoundOutWhenAPageIsRead) {
   EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].triangles = d.cells[1].meshTriangles = 2; }),
                   "page 2: expected 2 triangles, found 1"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.cells[1].content.max.x = 999; }), "page 2: expected positions inside"));
-  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes += 4; }), "page 3: expected 76 decoded bytes"));
+  EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes += 4; }), "page 3: expected 88 decoded bytes"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[3].decodedBytes -= 4; }), "page 3: byte 0 of the page"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[0].checksum ^= 1; }), "page 0: expected checksum"));
   EXPECT_TRUE(has(finding([](Directory& d) { d.pages[4].group += 2; }), "page 4: expected views of group"));

@@ -59,6 +59,10 @@ class PlainDecoder {
       result.positions.emplace_back(components[i], components[vertices + i], components[2 * vertices + i]);
     if (flags & 1) result.colours = sequences(1, vertices, 8);
     if (flags & 2) result.normals = sequences(1, vertices, 16);
+    if (flags & 4) {
+      const std::vector<uint32_t> onAtlas = sequences(2, vertices, 32, true);
+      for (size_t i = 0; i < vertices; ++i) result.coordinates.push_back(onAtlas[i] | onAtlas[vertices + i] << 16);
+    }
     if (flags & 8) result.shown = sequences(1, triangles, 8);
     EXPECT_EQ(at_, payload_.size());
     return result;
@@ -157,7 +161,8 @@ TEST(GeometryPageCoding, IsWhatFormatMdSaysToADecoderOfItsOwn) {
   for (uint32_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const GeometryPage page = randomGeometry(random, 300, 400, kMaxCoordinate, seed % 2, seed % 4 < 2, seed % 8 < 4);
+    const GeometryPage page =
+        randomGeometry(random, 300, 400, kMaxCoordinate, seed % 2, seed % 4 < 2, seed % 3 == 0, seed % 8 < 4);
     EXPECT_EQ(PlainDecoder(encodeGeometryPage(page)).decode(), page);
     const GeometryPage ordered = optimisedOrder(page);
     EXPECT_EQ(PlainDecoder(encodeGeometryPage(ordered)).decode(), ordered);
@@ -262,6 +267,23 @@ TEST(GeometryPageCoding, RefusesCoordinatesOutsideTheCube) {
 }
 
 // Damage behind a right zlib checksum reaches every check of the decoder; whatever passes must be usable.
+TEST(GeometryPageCoding, RefusesCoordinatesBeyondTheAtlas) {
+  GeometryPage page = samples::cornerTriangle(7);
+  page.coordinates = {0x0000ffff, 0xffff0000, 0x12345678};
+  const Bytes bytes = encodeGeometryPage(page);
+  EXPECT_EQ(decode(bytes, page), page);
+  Bytes payload = inflated(bytes);
+  // The six words are all literals, in planes at the end: the third plane's bytes are bits 16 to 23.
+  payload.at(payload.size() - 12) = std::byte{2};
+  Bytes changed(bytes.begin(), bytes.begin() + kPageHeaderBytes);
+  const Bytes stream = zlibCompress(payload, 1);
+  changed.insert(changed.end(), stream.begin(), stream.end());
+  const auto decoded = decode(changed, page);
+  ASSERT_FALSE(decoded.has_value());
+  EXPECT_NE(decoded.error().message.find("texture coordinates up to 65535"), std::string::npos)
+      << decoded.error().message;
+}
+
 TEST(GeometryPageCoding, SurvivesDamagedPayloads) {
   std::mt19937 random(5);
   const GeometryPage page = randomGeometry(random, 60, 80, kMaxCoordinate, true, true);
@@ -315,7 +337,8 @@ TEST(OptimisedOrder, KeepsEveryTriangleAndItsWindingAndDropsUnusedVertices) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     const GeometryPage page =
-        randomGeometry(random, 3 + seed * 7, 1 + seed * 11, kMaxCoordinate, seed % 2, seed % 3 == 1, seed % 4 < 2);
+        randomGeometry(random, 3 + seed * 7, 1 + seed * 11, kMaxCoordinate, seed % 2, seed % 3 == 1,
+                       seed % 5 == 2, seed % 4 < 2);
     const GeometryPage ordered = optimisedOrder(page);
     EXPECT_EQ(triangleSet(ordered), triangleSet(page));
     std::vector<bool> used(ordered.positions.size());

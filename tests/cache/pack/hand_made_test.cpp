@@ -111,12 +111,12 @@ Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
   Text text;
   text.u64({0, 0, 0, kF64One}).u32({16, 2}).u32({0, 0, 0, 4, 4, 0}).append(settings());
   text.string("hand.ply");
-  text.u64({2, 4, 42, 2, views.size(), 25, geometry.size()});
+  text.u64({2, 4, 42, 2, views.size(), 25, geometry.size(), 0});
   text.u32({1}).string("zeroArea").u64({9});
   text.u32({0});
   text.u32({0});
   text.u32({1});
-  text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1, 1})
+  text.u32({0, 0, 0, 0, 0xffffffff, 0xffffffff, 0, 0, 1, 1, 1, 0xffffffff, 0})
       .u32({0, 0, 0, 4, 4, 0})
       .u64({2, 2, 0})
       .raw({161, 145, 1, 255})
@@ -168,7 +168,7 @@ TEST(HandMadePack, IsReadAsFormatMdSays) {
   EXPECT_EQ(found.report.viewsKept, 2u);
 
   const GeometryPage geometry{
-      {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}}, {0xff, 0xff, 0xff00, 0xff00}, {}, {0, 1, 2, 1, 3, 2}};
+      {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}}, {0xff, 0xff, 0xff00, 0xff00}, {}, {}, {0, 1, 2, 1, 3, 2}};
   EXPECT_EQ(pack->readGeometry(0), geometry);
   ViewPage views;
   views.views.resize(2);

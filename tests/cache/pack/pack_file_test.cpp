@@ -34,6 +34,7 @@ TEST(PackFile, GivesBackEverythingThatWasWritten) {
   report.geometryBytes = directory.pages.at(2).storedBytes + directory.pages.at(3).storedBytes;
   report.impostorBytes =
       directory.pages[0].storedBytes + directory.pages[1].storedBytes + directory.pages.at(4).storedBytes;
+  report.textureBytes = directory.pages.at(5).storedBytes + directory.pages.at(6).storedBytes;
   EXPECT_EQ(directory.report, report);
   ASSERT_EQ(directory.cells.size(), 3u);
   for (size_t i = 0; i < 3; ++i) {
@@ -42,18 +43,21 @@ TEST(PackFile, GivesBackEverythingThatWasWritten) {
         std::tie(found.key, found.parent, found.firstChild, found.childCount, found.content, found.triangles),
         std::tie(wanted.key, wanted.parent, wanted.firstChild, wanted.childCount, wanted.content, wanted.triangles));
     EXPECT_EQ(std::tie(found.meshTriangles, found.geometricError, found.firstGeometryPage, found.geometryPageCount,
-                       found.firstViewPage, found.viewPageCount),
+                       found.firstViewPage, found.viewPageCount, found.firstTexturePage, found.texturePageCount),
               std::tie(wanted.meshTriangles, wanted.geometricError, wanted.firstGeometryPage, wanted.geometryPageCount,
-                       wanted.firstViewPage, wanted.viewPageCount));
+                       wanted.firstViewPage, wanted.viewPageCount, wanted.firstTexturePage, wanted.texturePageCount));
   }
   EXPECT_EQ(pack->readViews(0), expected.views[0]);
   EXPECT_EQ(pack->readViews(1), expected.views[1]);
   EXPECT_EQ(pack->readGeometry(2), expected.geometry[0]);
   EXPECT_EQ(pack->readGeometry(3), expected.geometry[1]);
   EXPECT_EQ(pack->readViews(4), expected.views[2]);
+  EXPECT_EQ(pack->readAtlas(1, 0), expected.atlas);
+  EXPECT_EQ(pack->readAtlas(2, 0), expected.atlas);
+  EXPECT_TRUE(pack->atlasPages(0, 0).empty());
   std::vector<uint64_t> done;
   EXPECT_TRUE(pack->verify(10, [&](uint64_t pages) { done.push_back(pages); }).empty());
-  EXPECT_EQ(done, (std::vector<uint64_t>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(done, (std::vector<uint64_t>{1, 2, 3, 4, 5, 6, 7}));
 }
 
 TEST(PackFile, HasTheSameBytesWhenWrittenTwice) {
@@ -148,7 +152,7 @@ TEST(PackFile, SaysThatAFutureVersionIsUnsupported) {
   EXPECT_NE(error.message.find("expected a pack of version 0, found version 1"), std::string::npos) << error.message;
 }
 
-// A pack of one triangle and one small view, so that every bit of the file can be tried.
+// A pack of one triangle, one small view and one small atlas, so that every bit of the file can be tried.
 void writeSmallPack(const std::filesystem::path& path) {
   Directory directory;
   directory.model.settings.views = 12;
@@ -164,6 +168,8 @@ void writeSmallPack(const std::filesystem::path& path) {
   directory.cells[0].geometryPageCount = 1;
   directory.cells[0].firstViewPage = 1;
   directory.cells[0].viewPageCount = 1;
+  directory.cells[0].firstTexturePage = 2;
+  directory.cells[0].texturePageCount = 1;
   std::mt19937 random(1);
   ViewPage views;
   views.views.push_back(samples::randomView(random, 3, 16, true, 0));
@@ -174,6 +180,8 @@ void writeSmallPack(const std::filesystem::path& path) {
   ASSERT_TRUE(
       writer->add(PageKind::geometry, 0, 0, decodedSizeBytes(geometry), encodeGeometryPage(geometry)).has_value());
   ASSERT_TRUE(writer->add(PageKind::views, 0, group, decodedSizeBytes(views), encodeViewPage(views)).has_value());
+  const TexturePage atlas = samples::randomAtlas(random, 8, 4, 3, 3);
+  ASSERT_TRUE(writer->add(PageKind::texture, 0, 0, decodedSizeBytes(atlas), encodeTexturePage(atlas)).has_value());
   ASSERT_TRUE(writer->finish(directory).has_value());
 }
 

@@ -24,7 +24,7 @@ inline uint32_t below(std::mt19937& random, uint32_t bound) { return static_cast
 
 // Neighbouring triangles, repeated coordinates and noise in one: what every branch of the coder meets.
 inline GeometryPage randomGeometry(std::mt19937& random, uint32_t vertices, uint32_t triangles, uint32_t maxCoordinate,
-                                   bool colours, bool normals, bool shown = false) {
+                                   bool colours, bool normals, bool coordinates = false, bool shown = false) {
   GeometryPage page;
   for (uint32_t i = 0; i < vertices; ++i) {
     glm::uvec3 position;
@@ -34,6 +34,7 @@ inline GeometryPage randomGeometry(std::mt19937& random, uint32_t vertices, uint
     page.positions.push_back(position);
     if (colours) page.colours.push_back(random() % 3 == 0 ? 0x00ffffffu : static_cast<uint32_t>(random()));
     if (normals) page.normals.push_back(static_cast<uint32_t>(random()));
+    if (coordinates) page.coordinates.push_back(random() % 3 == 0 ? 0x00ff00ffu + i : static_cast<uint32_t>(random()));
   }
   for (uint32_t i = 0; i < triangles; ++i) {
     const size_t size = page.indices.size();
@@ -68,6 +69,19 @@ inline ViewImage randomView(std::mt19937& random, uint32_t view, uint32_t imageS
     }
   }
   return image;
+}
+
+// An atlas with all its levels, of two groups when it is large.
+inline TexturePage randomAtlas(std::mt19937& random, uint32_t width, uint32_t height, uint32_t channels,
+                               uint32_t levels) {
+  TexturePage atlas{width, height, channels, levels, 0, {}};
+  const bool smooth = random() % 2 == 0;
+  for (uint32_t level = 0; level < levels; ++level) {
+    auto& texels = atlas.levels.emplace_back();
+    for (uint32_t i = 0; i < (width >> level) * (height >> level) * channels; ++i)
+      texels.push_back(static_cast<uint8_t>(smooth ? i / 7 + i % channels * 40 : random()));
+  }
+  return atlas;
 }
 
 // A file in memory where there is such a place (tests rewrite it 100,000 times), removed with this.
@@ -108,6 +122,7 @@ inline GeometryPage cornerTriangle(uint32_t size) {
   page.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
   page.colours = {0x00112233, 0x00445566, 0x00778899};
   page.normals = {0x7fff, 0x7fff0000, 0x80018001};
+  page.coordinates = {0x00001000, 0x80007fff, 0xffffffff};
   page.indices = {0, 1, 2};
   return page;
 }
@@ -118,6 +133,7 @@ struct FullPack {
   Directory directory;
   std::vector<GeometryPage> geometry;  // of pages 2 and 3
   std::vector<ViewPage> views;         // of pages 0, 1 and 4
+  TexturePage atlas;                   // in pages 5 and 6, of both leaves
 };
 
 inline Directory fullDirectory() {
@@ -159,7 +175,9 @@ inline Directory fullDirectory() {
                         .triangles = 1,
                         .meshTriangles = 1,
                         .firstGeometryPage = 2,
-                        .geometryPageCount = 1};
+                        .geometryPageCount = 1,
+                        .firstTexturePage = 5,
+                        .texturePageCount = 2};
   directory.cells[2] = {.key = {1, 1, 0, 0},
                         .parent = 0,
                         .content = {GridPoint(1 << 19, 0, 0), GridPoint((1 << 19) + 7, 7, 0)},
@@ -168,7 +186,9 @@ inline Directory fullDirectory() {
                         .firstGeometryPage = 3,
                         .geometryPageCount = 1,
                         .firstViewPage = 4,
-                        .viewPageCount = 1};
+                        .viewPageCount = 1,
+                        .firstTexturePage = 5,
+                        .texturePageCount = 2};
   return directory;
 }
 
@@ -190,6 +210,10 @@ inline FullPack fullPack() {
     }
   }
   pack.views = {inFirstGroup, empty, inFirstGroup};
+  // Few bytes, although more texels than are coarse.
+  pack.atlas = {264, 256, 3, 4, 0, {}};
+  for (uint32_t level = 0; level < 4; ++level)
+    pack.atlas.levels.emplace_back(size_t{3} * (264 >> level) * (256 >> level), static_cast<uint8_t>(50 * level));
   return pack;
 }
 
@@ -205,6 +229,9 @@ inline void write(const FullPack& pack, const std::filesystem::path& path) {
   add(PageKind::geometry, 1, 0, pack.geometry[0], encodeGeometryPage(pack.geometry[0]));
   add(PageKind::geometry, 2, 0, pack.geometry[1], encodeGeometryPage(pack.geometry[1]));
   add(PageKind::views, 2, group, pack.views[2], encodeViewPage(pack.views[2]));
+  uint32_t textureGroup = 0;
+  for (const TexturePage& page : pagesOfAtlas(pack.atlas))
+    add(PageKind::texture, 1, textureGroup++, page, encodeTexturePage(page));
   FARCELL_CHECK(writer->finish(pack.directory).has_value());
 }
 

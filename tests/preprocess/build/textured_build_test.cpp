@@ -140,24 +140,42 @@ TEST_F(TexturedBuild, ACheckerboardFarFinerThanATexelIsGrey) {
   EXPECT_GT(view, 5u);
 }
 
-TEST_F(TexturedBuild, LeafPagesHoldTheImageAsVertexColours) {
+TEST_F(TexturedBuild, LeafPagesHoldTheImageInAnAtlasAndOthersAsVertexColours) {
   write("wall.png", encodeImage("png", {256, 256, 3, 8}, [](int x, int y, int c) { return quarters(x, y, c, 256); }));
   build(squareObj(40), "square.far");
   const PackFile pack = open("square.far");
   const Directory& directory = pack.directory();
   EXPECT_TRUE(directory.model.hasColours);
-  for (const CellRecord& cell : directory.cells) {
-    if (cell.geometryPageCount == 0) continue;
-    const GeometryPage page = pack.readGeometry(cell.firstGeometryPage).value();
+  int leaves = 0;
+  for (uint32_t cell = 0; cell < directory.cells.size(); ++cell) {
+    const CellRecord& record = directory.cells[cell];
+    if (record.geometryPageCount == 0) continue;
+    const GeometryPage page = pack.readGeometry(record.firstGeometryPage).value();
     ASSERT_EQ(page.colours.size(), page.positions.size());
-    EXPECT_LT(page.positions.size(), page.indices.size() / 4) << "vertices are shared";
-    const GridPoint cellMin = cellBox(directory.model.grid, cell.key).min;
+    ASSERT_EQ(page.coordinates.empty(), record.childCount > 0);
+    const GridPoint cellMin = cellBox(directory.model.grid, record.key).min;
+    TexturePage atlas;
+    if (record.childCount == 0) atlas = pack.readAtlas(cell, 0).value();
+    leaves += record.childCount == 0;
     for (size_t i = 0; i < page.positions.size(); ++i) {
       const glm::dvec3 at = directory.model.grid.worldFromGrid(cellMin + GridPoint(page.positions[i]));
       if (std::abs(at.x) < 0.06 || std::abs(at.y) < 0.06) continue;
-      EXPECT_EQ(page.colours[i], at.x < 0 ? 0u : at.y > 0 ? 0xffffffu : 0x0000ffu) << at.x << " " << at.y;
+      const uint32_t expected = at.x < 0 ? 0u : at.y > 0 ? 0xffffffu : 0x0000ffu;
+      if (record.childCount > 0) {
+        EXPECT_EQ(page.colours[i], expected) << at.x << " " << at.y;
+        continue;
+      }
+      EXPECT_EQ(page.colours[i], 0xffffffu);
+      const auto texel = [](uint32_t coordinate, uint32_t size) {
+        return std::min(static_cast<uint32_t>(coordinate / 65535.0 * size), size - 1);
+      };
+      const uint32_t x = texel(page.coordinates[i] & 0xffff, atlas.width);
+      const uint32_t y = texel(page.coordinates[i] >> 16, atlas.height);
+      const uint8_t* rgb = &atlas.levels[0][3 * (size_t{y} * atlas.width + x)];
+      EXPECT_EQ(rgb[0] | rgb[1] << 8 | rgb[2] << 16, expected) << at.x << " " << at.y;
     }
   }
+  EXPECT_GT(leaves, 0);
 }
 
 TEST_F(TexturedBuild, OneThreadAndFourGiveTheSameBytes) {
@@ -196,12 +214,16 @@ TEST_F(TexturedBuild, SpotIsACowWithADarkAndALightSide) {
   ASSERT_EQ(build("mtllib square.mtl\nusemtl wall\n" + spot, "spot.far").textures.read, 1u);
   const PackFile pack = open("spot.far");
   size_t dark = 0, light = 0;
-  for (const CellRecord& cell : pack.directory().cells) {
-    if (cell.geometryPageCount == 0) continue;
-    const GeometryPage page = pack.readGeometry(cell.firstGeometryPage).value();
-    for (const uint32_t colour : page.colours) {
-      dark += (colour >> 8 & 255) < 90 ? 1 : 0;
-      light += (colour >> 8 & 255) > 220 ? 1 : 0;
+  for (uint32_t cell = 0; cell < pack.directory().cells.size(); ++cell) {
+    if (pack.atlasPages(cell, 0).empty()) continue;
+    const GeometryPage page = pack.readGeometry(pack.directory().cells[cell].firstGeometryPage).value();
+    const TexturePage atlas = pack.readAtlas(cell, 0).value();
+    for (const uint32_t packed : page.coordinates) {
+      const auto x = static_cast<size_t>((packed & 0xffff) / 65536.0 * atlas.width);
+      const auto y = static_cast<size_t>((packed >> 16) / 65536.0 * atlas.height);
+      const int green = atlas.levels[0][3 * (y * atlas.width + x) + 1];
+      dark += green < 90 ? 1 : 0;
+      light += green > 220 ? 1 : 0;
     }
   }
   EXPECT_GT(dark, 300u);

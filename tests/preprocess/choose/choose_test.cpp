@@ -54,7 +54,7 @@ Scene randomScene(unsigned seed) {
 
 // The size of a pack with these views, by FORMAT.md, with a directory of short names.
 uint64_t packBytes(const Scene& scene, const std::vector<ViewFate>& fates) {
-  uint64_t bytes = 32 + 80 + 104 + 300 + 104 * scene.cells.size();
+  uint64_t bytes = 32 + 80 + 104 + 300 + 112 * scene.cells.size();
   std::map<std::pair<uint32_t, int>, uint64_t> pages;
   for (size_t i = 0; i < fates.size(); ++i) {
     if (fates[i] != ViewFate::kept) continue;

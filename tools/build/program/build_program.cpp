@@ -233,6 +233,7 @@ BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
   summary.seconds = seconds.total;
   summary.cpuSeconds = processCpuSeconds();
   summary.parts = {{"geometry", report.geometryBytes}, {"impostors", report.impostorBytes}};
+  if (report.textureBytes > 0) summary.parts.push_back({"textures", report.textureBytes});
   summary.packBytes = result.packBytes;
   summary.packBudget = options.settings.packBudgetBytes;
   summary.peakRssBytes = peakRssBytes();

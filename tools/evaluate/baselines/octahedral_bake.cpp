@@ -6,6 +6,7 @@
 
 #include "cache/base/interrupt.h"
 #include "cache/base/parallel.h"
+#include "preprocess/atlas/atlas_sampler.h"
 #include "preprocess/bake/view_baker.h"
 
 namespace farcell {
@@ -29,17 +30,28 @@ CellSoup soupOf(const GeometryPage& page, const Grid& grid, const CellKey& cell,
     soup.z[corner].push_back(static_cast<float>(p.z));
     soup.colours[corner].push_back(page.colours.empty() ? albedo() : page.colours[vertex]);
     if (!page.normals.empty()) soup.normals[corner].push_back(page.normals[vertex]);
+    if (page.coordinates.empty()) continue;
+    const glm::vec2 at = unpackedCoordinates(page.coordinates[vertex]);
+    soup.u[corner].push_back(at.x);
+    soup.v[corner].push_back(at.y);
   }
+  if (!page.coordinates.empty()) soup.textures.assign(page.indices.size() / 3, 0);
   return soup;
 }
 
-Result<> addLeaves(const PackFile& pack, const OctahedralViews& views, std::vector<ViewBaker>& bakers) {
+Result<> addLeaves(const PackFile& pack, const OctahedralViews& views, std::vector<ViewBaker>& bakers,
+                   AtlasSampler& textures) {
   const Directory& directory = pack.directory();
-  for (const CellRecord& cell : directory.cells) {
+  for (uint32_t index = 0; index < directory.cells.size(); ++index) {
+    const CellRecord& cell = directory.cells[index];
     if (cell.childCount > 0) continue;
     FARCELL_TRY(checkInterrupt());
     for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
       FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(cell.firstGeometryPage + part));
+      if (!page.coordinates.empty()) {
+        FARCELL_ASSIGN(TexturePage atlas, pack.readAtlas(index, part));
+        textures.show({std::move(atlas)});
+      }
       const CellSoup soup = soupOf(page, directory.model.grid, cell.key, views);
       parallelFor(bakers.size(), threadCount(0), [&](size_t i, int) { bakers[i].add(soup); });
     }
@@ -142,12 +154,13 @@ Result<OctahedralViews> bakeOctahedral(const PackFile& pack, int edge, glm::vec3
     views.axes.push_back(viewFrame(glm::normalize(views.grid[0] * d.x + views.grid[1] * d.y + views.grid[2] * d.z)));
   }
   for (int first = 0; first < kOctahedralFrames; first += kGroup) {
+    AtlasSampler textures({});  // of the part that is being added
     std::vector<ViewBaker> bakers;
     for (int i = 0; i < kGroup; ++i) {
-      bakers.emplace_back(BakeSettings{cube, kSamples, sun, false});
+      bakers.emplace_back(BakeSettings{cube, kSamples, sun, false}, &textures);
       bakers.back().begin(views.axes[static_cast<size_t>(first + i)]);
     }
-    FARCELL_TRY(addLeaves(pack, views, bakers));
+    FARCELL_TRY(addLeaves(pack, views, bakers, textures));
     for (ViewBaker& baker : bakers) {
       BakedView view, antipode;
       baker.finish(view, antipode);

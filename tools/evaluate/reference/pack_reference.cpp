@@ -33,6 +33,35 @@ void append(const GeometryPage& page, float steps, LocalTriangles& local) {
   local.normals.insert(local.normals.end(), page.normals.begin(), page.normals.end());
 }
 
+// The finest level, as an image of the model's: its top row first.
+TextureImage imageOf(const TexturePage& atlas) {
+  TextureImage image{static_cast<int>(atlas.width), static_cast<int>(atlas.height), {}};
+  for (uint32_t row = atlas.height; row-- > 0;) {
+    const uint8_t* texel = atlas.levels[0].data() + size_t{row} * atlas.width * atlas.channels;
+    for (uint32_t x = 0; x < atlas.width; ++x, texel += atlas.channels)
+      image.pixels.push_back(texel[0] | uint32_t{texel[1]} << 8 | uint32_t{texel[2]} << 16);
+  }
+  return image;
+}
+
+// What a page that was appended looks at.
+Result<> appendAtlas(const PackFile& pack, uint32_t cell, uint32_t part, const GeometryPage& page,
+                     LocalTriangles& local) {
+  const bool there = !page.coordinates.empty();
+  local.textureOf.insert(local.textureOf.end(), page.indices.size() / 3, there ? part : kNoTexture);
+  for (size_t i = 0; i < page.positions.size(); ++i) {
+    const uint32_t packed = there ? page.coordinates[i] : 0;
+    local.coordinates.push_back(glm::vec2(packed & 0xffff, packed >> 16) / 65535.0f);
+  }
+  if (!there) {
+    local.textures.add({});
+    return {};
+  }
+  FARCELL_ASSIGN(const TexturePage atlas, pack.readAtlas(cell, part));
+  local.textures.add(imageOf(atlas));
+  return {};
+}
+
 Result<TracedGeometry> loadLeaf(const PackFile& pack, uint32_t cell, RTCDevice device) {
   const CellRecord& record = pack.directory().cells[cell];
   const Grid& grid = pack.directory().model.grid;
@@ -40,6 +69,7 @@ Result<TracedGeometry> loadLeaf(const PackFile& pack, uint32_t cell, RTCDevice d
   for (uint32_t part = 0; part < record.geometryPageCount; ++part) {
     FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(record.firstGeometryPage + part));
     append(page, std::ldexp(1.0f, grid.bits - static_cast<int>(record.key.level)), local);
+    if (record.texturePageCount > 0) FARCELL_TRY(appendAtlas(pack, cell, part, page, local));
   }
   return buildTracedGeometry(device, std::move(local));
 }

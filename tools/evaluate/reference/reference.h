@@ -35,7 +35,7 @@ struct ReferenceSettings {
 // invalidArgument unless `samples` is a square number in [1, 64].
 Result<> checkReferenceSamples(int samples);
 
-// From the pack's own leaves, out of core. Ends with `cancelled` on Ctrl-C.
+// From the pack's own leaves, with their atlases, out of core. Ends with `cancelled` on Ctrl-C.
 Result<ReferenceImage> traceReference(const PackFile& pack, const Camera& camera, const ReferenceSettings& settings);
 
 // From the files a pack was built from; about 250 bytes of memory a triangle and 4 a pixel of their textures.

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "preprocess/texture/image_rows.h"
@@ -17,6 +18,9 @@ class WholeTextures {
   // An image that cannot be read is white: its triangles keep the colours they have without it, as in a build. Ends
   // with `cancelled` on Ctrl-C.
   static Result<WholeTextures> read(std::span<const TextureSource> sources);
+
+  // Adds an image that is held beyond its edges.
+  void add(TextureImage image) { textures_.push_back({std::move(image), TextureWrap::clamp, TextureWrap::clamp}); }
 
   bool empty() const { return textures_.empty(); }
   // Between the four nearest pixels; R, G, B in [0, 1]. Any thread.

@@ -27,7 +27,15 @@ class Recoder {
 
   Result<RecodedPage> recoded(uint32_t page) const {
     FARCELL_TRY(checkInterrupt());
-    return pack_.directory().pages[page].kind == PageKind::geometry ? geometry(page) : views(page);
+    switch (pack_.directory().pages[page].kind) {
+      case PageKind::geometry:
+        return geometry(page);
+      case PageKind::views:
+        return views(page);
+      case PageKind::texture:
+        break;
+    }
+    return texture(page);
   }
 
  private:
@@ -45,6 +53,15 @@ class Recoder {
     FARCELL_ASSIGN(const std::vector<std::byte> stored, pack_.readStored(page));
     FARCELL_ASSIGN(std::vector<std::byte> bytes, smallerGeometryPage(stored, limits));
     if (decodeGeometryPage(bytes, limits) != before) return differs(page);
+    return RecodedPage{.bytes = std::move(bytes)};
+  }
+
+  Result<RecodedPage> texture(uint32_t page) const {
+    const TextureLimits limits{pack_.directory().pages[page].decodedBytes};
+    FARCELL_ASSIGN(const TexturePage before, pack_.readTexture(page));
+    FARCELL_ASSIGN(const std::vector<std::byte> stored, pack_.readStored(page));
+    FARCELL_ASSIGN(std::vector<std::byte> bytes, smallerTexturePage(stored, limits));
+    if (decodeTexturePage(bytes, limits) != before) return differs(page);
     return RecodedPage{.bytes = std::move(bytes)};
   }
 
@@ -78,6 +95,10 @@ uint32_t batchEnd(const std::vector<PageRecord>& pages, uint32_t first) {
   uint32_t end = first + 1;
   while (end < pages.size() && bytes + pages[end].decodedBytes <= kBatchBytes) bytes += pages[end++].decodedBytes;
   return end;
+}
+
+uint64_t& bytesOf(PageKind kind, PackBytes& bytes) {
+  return kind == PageKind::views ? bytes.impostors : kind == PageKind::geometry ? bytes.geometry : bytes.textures;
 }
 
 // Counts of the report that the pages decide.
@@ -114,11 +135,12 @@ Result<RecodeResult> recodePack(const PackFile& pack, const std::filesystem::pat
       const PageRecord& record = pages[page];
       FARCELL_TRY(writer.add(record.kind, record.cell, record.group, record.decodedBytes, recoded->bytes));
       count(*recoded, directory.report);
-      (record.kind == PageKind::views ? result.after.impostors : result.after.geometry) += recoded->bytes.size();
+      bytesOf(record.kind, result.after) += recoded->bytes.size();
     }
     first = end;
   }
-  result.before = {pack.sizeBytes(), directory.report.impostorBytes, directory.report.geometryBytes};
+  result.before = {pack.sizeBytes(), directory.report.impostorBytes, directory.report.geometryBytes,
+                   directory.report.textureBytes};
   FARCELL_ASSIGN(result.after.pack, writer.finish(std::move(directory)));
   progress.end();
   return result;

@@ -13,6 +13,7 @@ struct PackBytes {
   uint64_t pack = 0;
   uint64_t impostors = 0;
   uint64_t geometry = 0;
+  uint64_t textures = 0;
 };
 
 struct RecodeResult {

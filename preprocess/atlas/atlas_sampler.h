@@ -1,0 +1,31 @@
+// Looks at atlases as the GPU does: between texels and levels, several probes along a footprint that is longer than
+// wide.
+#pragma once
+
+#include <vector>
+
+#include "cache/pack/pages.h"
+#include "preprocess/mesh/texture_sampler.h"
+
+namespace farcell {
+
+class AtlasSampler final : public TextureSampler {
+ public:
+  // TextureLookup::texture is an index into these, its coordinates are those of GeometryPage. They hold all levels.
+  explicit AtlasSampler(std::vector<TexturePage> atlases) : atlases_(std::move(atlases)) {}
+
+  // Other atlases from now on.
+  void show(std::vector<TexturePage> atlases) { atlases_ = std::move(atlases); }
+
+  glm::vec3 sample(const TextureLookup& lookup) override;
+  const std::optional<Error>& failure() const override { return none_; }
+
+ private:
+  std::vector<TexturePage> atlases_;
+  std::optional<Error> none_;
+};
+
+// Of a corner, as GeometryPage has it.
+glm::vec2 unpackedCoordinates(uint32_t packed);
+
+}  // namespace farcell

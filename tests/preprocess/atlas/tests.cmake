@@ -1,0 +1,1 @@
+farcell_tests(preprocess/atlas DEPS farcell_preprocess_atlas)
