@@ -32,7 +32,7 @@ struct GeometryPage {
 // next one has half its edges.
 struct TexturePage {
   uint32_t width = 0, height = 0;  // of level 0: multiples of 2^(levelCount - 1)
-  uint32_t channels = 3;           // R, G, B; 4: and alpha
+  uint32_t channels = 3;           // R, G, B; 4: premultiplied by alpha, and alpha, the share that is surface
   uint32_t levelCount = 0;         // of the whole atlas
   uint32_t firstLevel = 0;
   std::vector<std::vector<uint8_t>> levels;  // from firstLevel on; rows of texels, the lowest first

@@ -9,7 +9,6 @@
 namespace farcell {
 namespace {
 
-constexpr uint32_t kChannels = 3;
 constexpr uint32_t kLeastLevels = 4;
 // More levels need wider gutters: as many as make the atlas no larger than this, against the least.
 constexpr double kGutterShare = 1.25;
@@ -84,39 +83,46 @@ void fillChart(const Chart& chart, glm::uvec2 texels, glm::uvec2 place, glm::uve
   const double gutter = plan.gutter();
   for (uint32_t y = 0; y < padded.y * plan.unit; ++y) {
     uint8_t* to = image.levels[0].data() +
-                  kChannels * ((size_t{place.y} * plan.unit + y) * image.width + size_t{place.x} * plan.unit);
-    for (uint32_t x = 0; x < padded.x * plan.unit; ++x, to += kChannels) {
+                  image.channels * ((size_t{place.y} * plan.unit + y) * image.width + size_t{place.x} * plan.unit);
+    for (uint32_t x = 0; x < padded.x * plan.unit; ++x, to += image.channels) {
       const glm::dvec2 at = chart.min + glm::dvec2(x + 0.5 - gutter, y + 0.5 - gutter) * step;
       lookup.at = glm::vec2(at);
-      const auto colour = sampler.sample(lookup);
-      for (uint32_t channel = 0; channel < kChannels; ++channel)
-        to[channel] = texelValue(colour[static_cast<int>(channel)]);
+      const glm::vec4 colour = sampler.sample(lookup);
+      // Premultiplied: what is no surface has no colour to be averaged.
+      const glm::vec4 stored = image.channels == 4 ? glm::vec4(glm::vec3(colour) * colour.w, colour.w) : colour;
+      for (uint32_t channel = 0; channel < image.channels; ++channel)
+        to[channel] = texelValue(stored[static_cast<int>(channel)]);
     }
   }
 }
 
-std::vector<uint8_t> halvedLevel(const std::vector<uint8_t>& level, uint32_t width, uint32_t height) {
+std::vector<uint8_t> halvedLevel(const std::vector<uint8_t>& level, uint32_t width, uint32_t height,
+                                 uint32_t channels) {
   std::vector<uint8_t> half(level.size() / 4);
-  const size_t row = size_t{width} * kChannels;
+  const size_t row = size_t{width} * channels;
   uint8_t* to = half.data();
   for (uint32_t y = 0; y < height; y += 2)
     for (uint32_t x = 0; x < width; x += 2)
-      for (uint32_t channel = 0; channel < kChannels; ++channel) {
-        const uint8_t* from = level.data() + y * row + x * kChannels + channel;
-        *to++ = static_cast<uint8_t>((from[0] + from[kChannels] + from[row] + from[row + kChannels] + 2) / 4);
+      for (uint32_t channel = 0; channel < channels; ++channel) {
+        const uint8_t* from = level.data() + y * row + x * channels + channel;
+        *to++ = static_cast<uint8_t>((from[0] + from[channels] + from[row] + from[row + channels] + 2) / 4);
       }
   return half;
 }
 
 TexturePage imageOf(std::span<const Chart> charts, const Plan& plan, TextureSampler& sampler) {
-  TexturePage image{plan.size.x * plan.unit, plan.size.y * plan.unit, kChannels, plan.levels, 0, {}};
+  const bool opaque = std::none_of(charts.begin(), charts.end(), [&](const Chart& chart) {
+    return chart.texture != kNoTexture && sampler.surface(chart.texture).alpha != AlphaMode::opaque;
+  });
+  TexturePage image{plan.size.x * plan.unit, plan.size.y * plan.unit, opaque ? 3u : 4u, plan.levels, 0, {}};
   // White where nothing lies, and where there is no texture.
-  image.levels.emplace_back(size_t{kChannels} * image.width * image.height, uint8_t{255});
+  image.levels.emplace_back(size_t{image.channels} * image.width * image.height, uint8_t{255});
   for (size_t i = 0; i < charts.size(); ++i)
     if (charts[i].texture != kNoTexture)
       fillChart(charts[i], plan.texels[i], plan.places[i], plan.padded[i], plan, sampler, image);
   for (uint32_t level = 1; level < plan.levels; ++level)
-    image.levels.push_back(halvedLevel(image.levels.back(), image.width >> (level - 1), image.height >> (level - 1)));
+    image.levels.push_back(
+        halvedLevel(image.levels.back(), image.width >> (level - 1), image.height >> (level - 1), image.channels));
   return image;
 }
 

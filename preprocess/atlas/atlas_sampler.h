@@ -17,7 +17,9 @@ class AtlasSampler final : public TextureSampler {
   // Other atlases from now on.
   void show(std::vector<TexturePage> atlases) { atlases_ = std::move(atlases); }
 
-  glm::vec3 sample(const TextureLookup& lookup) override;
+  glm::vec4 sample(const TextureLookup& lookup) override;
+  // Of an atlas with alpha: the share that it says is seen, of masks too, which have holes in it.
+  SurfaceKind surface(uint32_t texture) const override;
   const std::optional<Error>& failure() const override { return none_; }
 
  private:

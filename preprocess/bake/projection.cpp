@@ -1,6 +1,7 @@
 #include "preprocess/bake/projection.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace farcell::bake {
 
@@ -14,6 +15,8 @@ Projection projectionOf(const ViewFrame& frame, const SampleImage& image) {
   }
   projection.snap = 1.5f * static_cast<float>(std::bit_ceil(static_cast<unsigned>(image.sampleEdge)));
   projection.halfEdge = 0.5f * static_cast<float>(image.sampleEdge);
+  const auto& [x, y, z] = std::tie(frame.toward.x, frame.toward.y, frame.toward.z);
+  projection.isAntipode = z < 0 || (z == 0 && (y < 0 || (y == 0 && x < 0)));
   return projection;
 }
 

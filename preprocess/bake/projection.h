@@ -15,6 +15,8 @@ struct Projection {
   // every position, and every difference of two, is exact in a float. A step is at most 4.3e-7 half sides.
   float snap;
   float halfEdge;  // positions lie in [-halfEdge, halfEdge]
+  // Of a view and its antipode one is.
+  bool isAntipode;
 };
 
 Projection projectionOf(const ViewFrame& frame, const SampleImage& image);

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "preprocess/bake/candidates-inl.h"
 #include "preprocess/bake/walk_large-inl.h"
 #include "preprocess/bake/walk_small-inl.h"
 
@@ -28,6 +29,7 @@ struct Rasteriser {
   const Projection& projection;
   SampleImage& image;
   RasterScratch& scratch;
+  CandidateTest* test;  // of the triangles on their way; null: they need none
   SampleLanes lanes;
   // Bounds of the boxes, sample indices
   VF minX, minY, maxX, maxY;
@@ -55,15 +57,34 @@ void findSlopes(TriangleQueue& queue) {
   }
 }
 
-void flush(Rasteriser& r, size_t size) {
-  TriangleQueue& queue = r.scratch.queues[size];
-  findSlopes(queue);
+template <class Sink>
+void walk(Rasteriser& r, size_t size, Sink& sink) {
+  const TriangleQueue& queue = r.scratch.queues[size];
   if (size < kSmallQueues) {
-    walkSmall(queue, r.image);
+    walkSmall(queue, r.image, sink);
   } else {
-    walkLarge(queue, r.chunk.textures, r.lanes, r.image, r.scratch);
+    walkLarge(queue, r.lanes, r.image, r.scratch, sink);
   }
-  queue.count = 0;
+}
+
+void flush(Rasteriser& r, size_t size) {
+  findSlopes(r.scratch.queues[size]);
+  KeySink keys{r.image};
+  if (r.test != nullptr) {
+    walk(r, size, *r.test);
+  } else {
+    walk(r, size, keys);
+  }
+  r.scratch.queues[size].count = 0;
+}
+
+// Those of the pass, from triangle `first` on.
+HWY_INLINE MF ofThisPass(const Rasteriser& r, size_t first) {
+  const DF df;
+  const DU du;
+  const VU kinds = hn::And(hn::LoadU(du, r.scratch.kinds.data() + first), hn::Set(du, kTested));
+  const MU tested = hn::Ne(kinds, hn::Zero(du));
+  return hn::RebindMask(df, r.test != nullptr ? tested : hn::Not(tested));
 }
 
 HWY_INLINE void append(TriangleQueue& queue, MF which, const VF (&x)[3], const VF (&y)[3], const VF (&w)[3], VU id) {
@@ -96,6 +117,8 @@ HWY_INLINE void sortBySize(Rasteriser& r, MF remaining, VF size, const VF (&x)[3
 HWY_INLINE void projectBatch(Rasteriser& r, const Batch& batch, size_t at, uint32_t firstId, MF valid) {
   const DF df;
   const DU du;
+  if (r.scratch.tested) valid = hn::And(valid, ofThisPass(r, firstId));
+  if (hn::AllFalse(df, valid)) return;
   VF x[3], y[3], w[3];
   for (int k = 0; k < 3; ++k) {
     const VF p[3] = {hn::LoadU(df, batch.x[k] + at), hn::LoadU(df, batch.y[k] + at), hn::LoadU(df, batch.z[k] + at)};
@@ -141,11 +164,9 @@ TexelRect touchedTexels(const Rasteriser& r) {
   return {x0 >> shift, y0 >> shift, x1 >> shift, y1 >> shift};
 }
 
-TexelRect rasteriseChunk(const CellSoup& chunk, const Projection& projection, SampleImage& image,
-                         RasterScratch& scratch) {
+void projectAll(Rasteriser& r) {
   const DF df;
-  const VF high = hn::Set(df, kMaxSampleEdge), low = hn::Set(df, -1.0f);
-  Rasteriser r{chunk, projection, image, scratch, SampleLanes(image), high, high, low, low};
+  const CellSoup& chunk = r.chunk;
   Batch batch{};
   for (size_t k = 0; k < 3; ++k) {
     batch.x[k] = chunk.x[k].data();
@@ -158,6 +179,19 @@ TexelRect rasteriseChunk(const CellSoup& chunk, const Projection& projection, Sa
   for (size_t at = 0; at < whole; at += lanes) projectBatch(r, batch, at, static_cast<uint32_t>(at), all);
   if (whole < chunk.size()) projectTail(r, batch, whole, chunk.size() - whole);
   for (size_t i = 0; i <= kSmallQueues; ++i) flush(r, i);
+}
+
+TexelRect rasteriseChunk(const CellSoup& chunk, const Projection& projection, TextureSampler* textures,
+                         SampleImage& image, RasterScratch& scratch) {
+  const DF df;
+  const VF high = hn::Set(df, kMaxSampleEdge), low = hn::Set(df, -1.0f);
+  Rasteriser r{chunk, projection, image, scratch, nullptr, SampleLanes(image), high, high, low, low};
+  projectAll(r);
+  if (!scratch.tested) return touchedTexels(r);
+  CandidateTest test(chunk, projection, image, scratch, *textures);
+  r.test = &test;
+  projectAll(r);
+  test.flush();
   return touchedTexels(r);
 }
 
@@ -169,11 +203,34 @@ namespace farcell::bake {
 
 HWY_EXPORT(rasteriseChunk);
 
-TexelRect rasterise(const CellSoup& chunk, const Projection& projection, SampleImage& image, RasterScratch& scratch) {
+namespace {
+
+uint32_t kindOf(const SurfaceKind& surface) {
+  return (surface.alpha != AlphaMode::opaque ? kHasAlpha : 0) | (surface.doubleSided ? 0 : kSingleSided) |
+         (surface.hasImage ? kHasImage : 0);
+}
+
+void findKinds(const CellSoup& chunk, const TextureSampler* textures, RasterScratch& scratch) {
+  std::vector<uint32_t>& kinds = scratch.kinds;
+  kinds.clear();
+  scratch.tested = false;
+  if (chunk.textures.empty()) return;
+  kinds.resize(chunk.size() + HWY_MAX_BYTES / sizeof(uint32_t));
+  for (size_t i = 0; i < chunk.size(); ++i) {
+    if (chunk.textures[i] != kNoTexture) kinds[i] = kindOf(textures->surface(chunk.textures[i]));
+    scratch.tested |= (kinds[i] & kTested) != 0;
+  }
+}
+
+}  // namespace
+
+TexelRect rasterise(const CellSoup& chunk, const Projection& projection, TextureSampler* textures, SampleImage& image,
+                    RasterScratch& scratch) {
   FARCELL_CHECK(chunk.size() < kMaxChunkTriangles);
   scratch.largeTriangles.clear();
   if (scratch.largeSlots.size() < chunk.size()) scratch.largeSlots.resize(chunk.size());
-  return HWY_DYNAMIC_DISPATCH(rasteriseChunk)(chunk, projection, image, scratch);
+  findKinds(chunk, textures, scratch);
+  return HWY_DYNAMIC_DISPATCH(rasteriseChunk)(chunk, projection, textures, image, scratch);
 }
 
 }  // namespace farcell::bake

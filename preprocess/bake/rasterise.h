@@ -5,6 +5,8 @@
 // 2. A queue that is full is turned into depth planes, in double (findSlopes).
 // 3. Small triangles are walked one a lane, sample by sample of their boxes (walkSmall); large ones texel row by texel
 //    row, one sample a lane (walkLarge).
+// 4. Triangles that alpha makes holes in, or that are seen from one side only, go through 1 to 3 after the others, and
+//    each of their samples is tested before it counts (candidates-inl.h).
 //
 // Which samples a triangle covers. Corners are rounded to a grid so fine that differences are exact in float. A
 // sample is covered when dx * qy >= dy * qx for the three edges: two rounded products of exact factors, compared.
@@ -43,14 +45,30 @@ struct TriangleQueue {
 inline constexpr float kSmallSizes[] = {0, 1, 3, 7};
 inline constexpr size_t kSmallQueues = 4;
 
+// What the texture of a triangle makes of it (SurfaceKind).
+inline constexpr uint32_t kHasAlpha = 1, kSingleSided = 2, kHasImage = 4;
+inline constexpr uint32_t kTested = kHasAlpha | kSingleSided;
+
+// Samples that wait for the test whether anything is seen there (candidates-inl.h).
+struct CandidateList {
+  static constexpr size_t kCapacity = 1024;
+  uint32_t payloads[kCapacity], elements[kCapacity], depths[kCapacity];
+  size_t count = 0;
+};
+
 struct RasterScratch {
   TriangleQueue queues[kSmallQueues + 1];
-  bool planes = true;                    // large triangles without texture are to have colour planes (kHasPlane)
+  CandidateList candidates;
+  bool tested = false;                   // some of the chunk's triangles are
+  std::vector<uint32_t> kinds;           // by triangle, padded by a vector; empty: all are 0
+  bool planes = true;                    // large triangles without image are to have colour planes (kHasPlane)
   std::vector<uint32_t> largeTriangles;  // out: those of this chunk, in the order of their slots
   std::vector<uint32_t> largeSlots;      // out: by triangle; defined for large triangles only
 };
 
-// Rasterises a chunk into the image; returns the texels it may have touched. The keys it writes are not settled.
-TexelRect rasterise(const CellSoup& chunk, const Projection& projection, SampleImage& image, RasterScratch& scratch);
+// Rasterises a chunk into the image; textures: of the chunk, null when it has none; returns the texels it may have
+// touched. The keys it writes are not settled.
+TexelRect rasterise(const CellSoup& chunk, const Projection& projection, TextureSampler* textures, SampleImage& image,
+                    RasterScratch& scratch);
 
 }  // namespace farcell::bake

@@ -51,7 +51,7 @@ HWY_INLINE void multiplyByTextures(const TriangleLanes& lanes, const Weights& we
   HWY_ALIGN float factors[3][kLanes];
   for (size_t lane = 0; lane < hn::Lanes(df); ++lane) {
     const auto pair = [&](const float(&values)[2][kLanes]) { return glm::vec2(values[0][lane], values[1][lane]); };
-    glm::vec3 factor(1);
+    glm::vec4 factor(1);
     if (lanes.textures[lane] != kNoTexture)
       factor = textures.sample(
           {lanes.textures[lane], pair(footprints.at), pair(footprints.alongX), pair(footprints.alongY)});

@@ -62,7 +62,8 @@ void ViewBaker::add(const CellSoup& chunk) {
   FARCELL_CHECK(chunk.textures.empty() || (impl_->textures != nullptr && chunk.textures.size() == chunk.size()));
   const bool flat = chunk.normals[0].empty();
   impl_->raster.planes = flat && !impl_->settings.relightable;
-  const bake::TexelRect touched = bake::rasterise(chunk, impl_->projection, impl_->image, impl_->raster);
+  const bake::TexelRect touched =
+      bake::rasterise(chunk, impl_->projection, impl_->textures, impl_->image, impl_->raster);
   impl_->image.touched.include(touched);
   const bake::Winners winners{
       chunk, impl_->projection, impl_->sun(), impl_->raster.largeTriangles, impl_->raster.largeSlots, impl_->textures};

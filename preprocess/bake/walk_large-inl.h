@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-
+#include "preprocess/bake/candidates-inl.h"
 #include "preprocess/bake/lanes-inl.h"
 #include "preprocess/bake/rasterise.h"
+#include "preprocess/bake/walk_small-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace farcell::bake::HWY_NAMESPACE {
@@ -113,12 +113,34 @@ HWY_INLINE RowLanes rowLanes(const LargeTriangle& t, const SampleLanes& lanes, s
   return row;
 }
 
-// The vector of samples whose first texel begins at texelX.
-HWY_INLINE void stampSamples(const LargeTriangle& t, const RowLanes& row, float texelX, uint64_t* front,
-                             uint64_t* back) {
-  const DFHalf df;
+// Keys of whole vectors: depth 0 in front and the largest depth behind never win.
+HWY_INLINE void addVector(MFHalf covered, VUHalf depth, uint32_t payload, size_t element, KeySink& sink) {
   const DUHalf du;
   const DK dk;
+  uint64_t* front = sink.image.front.data() + element;
+  uint64_t* back = sink.image.back.data() + element;
+  const auto which = hn::RebindMask(du, covered);
+  const VUHalf frontDepth = hn::IfThenElseZero(which, depth);
+  const VUHalf backDepth = hn::IfThenElse(which, depth, hn::Set(du, 0xffffffffu));
+  const VK frontKey = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dk, frontDepth)), hn::Set(dk, uint64_t{~payload}));
+  const VK backKey = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dk, backDepth)), hn::Set(dk, uint64_t{payload}));
+  hn::StoreU(hn::Max(hn::LoadU(dk, front), frontKey), dk, front);
+  hn::StoreU(hn::Min(hn::LoadU(dk, back), backKey), dk, back);
+}
+
+HWY_INLINE void addVector(MFHalf covered, VUHalf depth, uint32_t payload, size_t element, CandidateTest& test) {
+  const DUHalf du;
+  HWY_ALIGN uint32_t depths[kLanes], lanes[kLanes];
+  const auto which = hn::RebindMask(du, covered);
+  hn::StoreU(hn::Compress(depth, which), du, depths);
+  hn::StoreU(hn::Compress(hn::Iota(du, 0), which), du, lanes);
+  for (size_t i = 0; i < hn::CountTrue(du, which); ++i) test.add(payload, element + lanes[i], depths[i]);
+}
+
+// The vector of samples whose first texel begins at texelX.
+template <class Sink>
+HWY_INLINE void stampSamples(const LargeTriangle& t, const RowLanes& row, float texelX, size_t element, Sink& sink) {
+  const DFHalf df;
   const VFHalf x = hn::Add(hn::Set(df, texelX), row.offsetX);
   MFHalf covered = hn::And(row.inside, hn::And(hn::Ge(x, hn::Set(df, t.x0)), hn::Le(x, hn::Set(df, t.x1))));
   for (int k = 0; k < 3; ++k) {
@@ -129,17 +151,12 @@ HWY_INLINE void stampSamples(const LargeTriangle& t, const RowLanes& row, float 
   const VFHalf along = hn::Mul(hn::Sub(x, hn::Set(df, t.x[0])), hn::Set(df, t.slopeX));
   const VFHalf w = hn::Add(hn::Set(df, t.w), hn::Add(along, row.wAtRow));
   const VUHalf depth = orderedFromFloats(df, hn::Max(hn::Set(df, t.wMin), hn::Min(hn::Set(df, t.wMax), w)));
-  // Depth 0 in front and the largest depth behind never win.
-  const auto which = hn::RebindMask(du, covered);
-  const VUHalf frontDepth = hn::IfThenElseZero(which, depth);
-  const VUHalf backDepth = hn::IfThenElse(which, depth, hn::Set(du, 0xffffffffu));
-  const VK frontKey = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dk, frontDepth)), hn::Set(dk, uint64_t{~t.payload}));
-  const VK backKey = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(dk, backDepth)), hn::Set(dk, uint64_t{t.payload}));
-  hn::StoreU(hn::Max(hn::LoadU(dk, front), frontKey), dk, front);
-  hn::StoreU(hn::Min(hn::LoadU(dk, back), backKey), dk, back);
+  addVector(covered, depth, t.payload, element, sink);
 }
 
-inline void walkTexelRow(const LargeTriangle& t, int texelRow, const SampleLanes& lanes, SampleImage& image) {
+template <class Sink>
+void walkTexelRow(const LargeTriangle& t, int texelRow, const SampleLanes& lanes, const SampleImage& image,
+                  Sink& sink) {
   const int shift = image.edgeShift;
   const float centre = image.centreIndex;
   const float texelY = static_cast<float>(texelRow << shift) - centre;
@@ -154,17 +171,18 @@ inline void walkTexelRow(const LargeTriangle& t, int texelRow, const SampleLanes
     for (int texel = first; texel <= last; texel += lanes.texelsPerStep) {
       const size_t element = ((rowStart + size_t(texel)) << (2 * shift)) + size_t(slot) * vectorKeys;
       const float texelX = static_cast<float>(texel << shift) - centre;
-      stampSamples(t, row, texelX, image.front.data() + element, image.back.data() + element);
+      stampSamples(t, row, texelX, element, sink);
     }
   }
 }
 
-// textures: of the chunk's triangles; may be empty.
-void walkLarge(const TriangleQueue& queue, std::span<const uint32_t> textures, const SampleLanes& lanes,
-               SampleImage& image, RasterScratch& scratch) {
+template <class Sink>
+void walkLarge(const TriangleQueue& queue, const SampleLanes& lanes, const SampleImage& image, RasterScratch& scratch,
+               Sink& sink) {
   for (size_t at = 0; at < queue.count; ++at) {
     if (queue.area[at] == 0) continue;
-    const bool plane = scratch.planes && (textures.empty() || textures[queue.triangle[at]] == kNoTexture);
+    const bool plane =
+        scratch.planes && (scratch.kinds.empty() || (scratch.kinds[queue.triangle[at]] & kHasImage) == 0);
     if (plane) {
       scratch.largeSlots[queue.triangle[at]] = static_cast<uint32_t>(scratch.largeTriangles.size());
       scratch.largeTriangles.push_back(queue.triangle[at]);
@@ -172,7 +190,7 @@ void walkLarge(const TriangleQueue& queue, std::span<const uint32_t> textures, c
     const LargeTriangle t = largeTriangle(queue, at, image, plane ? kHasPlane : 0);
     const int first = static_cast<int>(t.y0 + image.centreIndex) >> image.edgeShift;
     const int last = static_cast<int>(t.y1 + image.centreIndex) >> image.edgeShift;
-    for (int texelRow = first; texelRow <= last; ++texelRow) walkTexelRow(t, texelRow, lanes, image);
+    for (int texelRow = first; texelRow <= last; ++texelRow) walkTexelRow(t, texelRow, lanes, image, sink);
   }
 }
 

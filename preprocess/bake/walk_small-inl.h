@@ -12,6 +12,7 @@
 
 #include "preprocess/bake/lanes-inl.h"
 #include "preprocess/bake/rasterise.h"
+#include "preprocess/bake/triangle_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace farcell::bake::HWY_NAMESPACE {
@@ -63,9 +64,22 @@ HWY_INLINE VI sampleElement(VI x, VI y, const SampleImage& image) {
   return hn::Add(hn::ShiftLeftSame(texel, 2 * shift), sample);
 }
 
-HWY_INLINE void updateSamples(MF covered, VU depth, VI element, const uint32_t* triangle, SampleImage& image) {
+// Writes keys at once.
+struct KeySink {
+  SampleImage& image;
+
+  HWY_INLINE void add(uint32_t payload, size_t element, uint32_t depth) {
+    const uint64_t key = uint64_t{depth} << 32 | payload;
+    uint64_t& front = image.front[element];
+    uint64_t& back = image.back[element];
+    front = std::max(front, key ^ 0xffffffffu);
+    back = std::min(back, key);
+  }
+};
+
+template <class Sink>
+HWY_INLINE void addSamples(MF covered, VU depth, VI element, const uint32_t* triangle, Sink& sink) {
   const DF df;
-  constexpr size_t kLanes = HWY_MAX_BYTES / sizeof(float);
   HWY_ALIGN uint32_t depths[kLanes];
   HWY_ALIGN int32_t elements[kLanes];
   hn::Store(depth, DU(), depths);
@@ -76,15 +90,13 @@ HWY_INLINE void updateSamples(MF covered, VU depth, VI element, const uint32_t* 
   std::memcpy(&bits, maskBytes, sizeof(bits));
   for (; bits != 0; bits &= bits - 1) {
     const int lane = std::countr_zero(bits);
-    const uint64_t key = uint64_t{depths[lane]} << 32 | kUnsettled | triangle[lane] << 1;
-    uint64_t& front = image.front[static_cast<size_t>(elements[lane])];
-    uint64_t& back = image.back[static_cast<size_t>(elements[lane])];
-    front = std::max(front, key ^ 0xffffffffu);
-    back = std::min(back, key);
+    sink.add(kUnsettled | triangle[lane] << 1, static_cast<size_t>(elements[lane]), depths[lane]);
   }
 }
 
-HWY_INLINE void walkRow(const SmallTriangles& t, MF row, VF y, VF indexY, float columns, SampleImage& image) {
+template <class Sink>
+HWY_INLINE void walkRow(const SmallTriangles& t, MF row, VF y, VF indexY, float columns, const SampleImage& image,
+                        Sink& sink) {
   const DF df;
   const DI di;
   const VF one = hn::Set(df, 1.0f);
@@ -103,14 +115,15 @@ HWY_INLINE void walkRow(const SmallTriangles& t, MF row, VF y, VF indexY, float 
       const VF w = hn::Add(t.w, hn::Add(hn::Mul(qx[0], t.slopeX), wAtRow));
       const VU depth = orderedFromFloats(df, hn::Max(t.wMin, hn::Min(t.wMax, w)));
       const VI element = sampleElement(hn::ConvertTo(di, indexX), hn::ConvertTo(di, indexY), image);
-      updateSamples(covered, depth, element, t.triangle, image);
+      addSamples(covered, depth, element, t.triangle, sink);
     }
     indexX = hn::Add(indexX, one);
     for (int k = 0; k < 3; ++k) qx[k] = hn::Add(qx[k], one);  // exact
   }
 }
 
-void walkSmall(const TriangleQueue& queue, SampleImage& image) {
+template <class Sink>
+void walkSmall(const TriangleQueue& queue, const SampleImage& image, Sink& sink) {
   const DF df;
   const VF zero = hn::Zero(df), centre = hn::Set(df, image.centreIndex);
   for (size_t at = 0; at < queue.count; at += hn::Lanes(df)) {
@@ -121,7 +134,7 @@ void walkSmall(const TriangleQueue& queue, SampleImage& image) {
     const float rows = hn::GetLane(hn::MaxOfLanes(df, height));
     VF indexY = t.box.y0;
     for (float row = 0; row <= rows; ++row) {
-      walkRow(t, hn::And(t.valid, hn::Le(indexY, t.box.y1)), hn::Sub(indexY, centre), indexY, columns, image);
+      walkRow(t, hn::And(t.valid, hn::Le(indexY, t.box.y1)), hn::Sub(indexY, centre), indexY, columns, image, sink);
       indexY = hn::Add(indexY, hn::Set(df, 1.0f));
     }
   }

@@ -180,13 +180,12 @@ Result<> measureStored(const BuildContext& context, const MeasureJob& job, Textu
   StoredViews views(context, cell, grown, textures);
   FARCELL_TRY(views.load());
   const BuildSettings& settings = context.model.settings;
-  FARCELL_ASSIGN(
-      const CellErrors errors,
-      measureCell(
-          {contentOf(context, record), alone, grown, mesh.size() > 0 ? &mesh : nullptr, textures, &meshTextures},
-          [&](int view) { return views(view); },
-          {context.viewpoints, settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
-           settings.lighting, settings.viewError, job.alternatives}));
+  FARCELL_ASSIGN(const CellErrors errors, measureCell({contentOf(context, record), alone, grown,
+                                                       mesh.size() > 0 ? &mesh : nullptr, textures, &meshTextures},
+                                                      [&](int view) { return views(view); },
+                                                      {context.viewpoints, settings.imageSize, settings.samples,
+                                                       sunDirection(settings.up, settings.sun), settings.lighting,
+                                                       settings.viewError, job.alternatives}));
   if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
   return context.store.addErrors(cell, errors);
 }

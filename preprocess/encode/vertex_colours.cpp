@@ -24,6 +24,12 @@ struct PlaceHash {
 struct Mean {
   glm::dvec3 sum{0};
   double weight = 0;
+
+  // What is transparent colours nothing.
+  void add(double area, glm::vec4 colour) {
+    sum += area * double{colour.w} * glm::dvec3(colour);
+    weight += area * double{colour.w};
+  }
 };
 
 // Equal numbers with equal bits.
@@ -33,12 +39,12 @@ Place placeOf(const GridTriangle& triangle, const TriangleTexture& texture, size
   return {triangle.corners[k], texture.texture, hashable(texture.coordinates[k])};
 }
 
-// The quarter of the triangle at corner k: half as long along both sides.
-TextureLookup quarterAt(const TriangleTexture& texture, size_t k) {
+// The part of the triangle at corner k that is `share` as long along both sides.
+TextureLookup partAt(const TriangleTexture& texture, size_t k, float share) {
   const glm::vec2 corner = texture.coordinates[k];
-  const glm::vec2 a = 0.5f * (texture.coordinates[(k + 1) % 3] - corner);
-  const glm::vec2 b = 0.5f * (texture.coordinates[(k + 2) % 3] - corner);
-  // A square as large as the quarter, about its middle.
+  const glm::vec2 a = share * (texture.coordinates[(k + 1) % 3] - corner);
+  const glm::vec2 b = share * (texture.coordinates[(k + 2) % 3] - corner);
+  // A square as large as the part, about its middle.
   constexpr float kSide = 0.70710678f;
   return {texture.texture, corner + (a + b) / 3.0f, kSide * a, kSide * b};
 }
@@ -57,25 +63,34 @@ uint32_t multiplied(uint32_t colour, const Mean& mean) {
   return product;
 }
 
+template <class Visit>
+void forEachCorner(const GridTriangles& list, const Visit& visit) {
+  for (size_t i = 0; i < list.size(); ++i)
+    for (size_t k = 0; k < 3 && list.textures[i].texture != kNoTexture; ++k) visit(i, k);
+}
+
 }  // namespace
 
 std::vector<GridTriangle> withTexturesAsColours(GridTriangles list, TextureSampler* textures) {
   if (list.textures.empty()) return std::move(list.triangles);
   FARCELL_CHECK(textures != nullptr);
   std::unordered_map<Place, Mean, PlaceHash> means;
-  const auto forEachCorner = [&](const auto& visit) {
-    for (size_t i = 0; i < list.size(); ++i)
-      for (size_t k = 0; k < 3 && list.textures[i].texture != kNoTexture; ++k) visit(i, k);
-  };
-  forEachCorner([&](size_t i, size_t k) {
-    Mean& mean = means[placeOf(list.triangles[i], list.textures[i], k)];
-    const double weight = areaSteps(list.triangles[i]);  // not zero: degenerate triangles were left out
-    mean.sum += weight * glm::dvec3(textures->sample(quarterAt(list.textures[i], k)));
-    mean.weight += weight;
-  });
-  forEachCorner([&](size_t i, size_t k) {
+  // Of what shows at a corner; beside a hole, of what the triangles show elsewhere.
+  for (const float share : {0.5f, 1.0f}) {
+    std::unordered_map<Place, Mean, PlaceHash> found;
+    forEachCorner(list, [&](size_t i, size_t k) {
+      const Place place = placeOf(list.triangles[i], list.textures[i], k);
+      if (means.contains(place)) return;
+      const double area = areaSteps(list.triangles[i]);  // not zero: degenerate triangles were left out
+      found[place].add(area, textures->sample(partAt(list.textures[i], k, share)));
+    });
+    std::erase_if(found, [](const auto& entry) { return entry.second.weight == 0; });
+    means.merge(found);
+  }
+  forEachCorner(list, [&](size_t i, size_t k) {
+    const auto mean = means.find(placeOf(list.triangles[i], list.textures[i], k));
     uint32_t& colour = list.triangles[i].colours[k];
-    colour = multiplied(colour, means.at(placeOf(list.triangles[i], list.textures[i], k)));
+    if (mean != means.end()) colour = multiplied(colour, mean->second);
   });
   return std::move(list.triangles);
 }

@@ -10,8 +10,9 @@ namespace farcell {
 
 // The triangles with their textures multiplied into the colours of their corners. A corner gets the mean of the texture
 // over the nearest quarter of each triangle that meets there - within the triangles, since beyond them an image may
-// hold anything. Corners of one place on the grid and on the texture (and one colour) keep one colour, so that they
-// remain one vertex. REQUIRES: textures, when a triangle has one.
+// hold anything - and of what shows there: beside a hole in the texture, of what its triangles show elsewhere;
+// triangles that show nothing keep their colours. Corners of one place on the grid and on the texture (and one colour)
+// keep one colour, so that they remain one vertex. REQUIRES: textures, when a triangle has one.
 std::vector<GridTriangle> withTexturesAsColours(GridTriangles triangles, TextureSampler* textures);
 
 }  // namespace farcell

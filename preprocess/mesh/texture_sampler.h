@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 
 #include "cache/base/result.h"
@@ -28,9 +28,13 @@ struct TextureShape {
 class TextureSampler {
  public:
   virtual ~TextureSampler() = default;
-  // Mean display values, R, G, B in [0, 1]: what a vertex colour is multiplied with. White, which changes no colour,
-  // for a texture that could not be read. Numbers that are not finite are taken as zero.
-  virtual glm::vec3 sample(const TextureLookup& lookup) = 0;
+  // R, G, B: mean display values of what is surface there, in [0, 1]: what a vertex colour is multiplied with; 0 where
+  // nothing is. A: the share of the parallelogram that is surface; of a mask that is not made smaller 0 or 1. Opaque
+  // white, which changes no colour, for a texture that could not be read. Numbers that are not finite are taken as
+  // zero.
+  virtual glm::vec4 sample(const TextureLookup& lookup) = 0;
+  // As the source says; opaque when its image could not be read.
+  virtual SurfaceKind surface(uint32_t /*texture*/) const { return {}; }
   virtual TextureShape shape(uint32_t /*texture*/) const { return {}; }
   // Why what was sampled so far cannot be trusted: scratch could not be read.
   virtual const std::optional<Error>& failure() const = 0;

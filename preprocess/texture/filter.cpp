@@ -1,8 +1,10 @@
 #include "preprocess/texture/filter.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <glm/vec3.hpp>
 
 #include "cache/base/check.h"
 
@@ -87,23 +89,53 @@ glm::vec3 unpacked(uint64_t lanes) {
   return glm::vec3(channel(0), channel(1), channel(2)) * kUnit;
 }
 
+// Four pixels, and a place between them.
+struct Square {
+  std::array<uint32_t, 4> pixels;  // upper left, upper right, lower left, lower right
+  uint32_t across, down;           // parts of kWhole
+};
+
+// Colours times alpha, and alpha.
+glm::vec4 meanOf(const Square& square) {
+  const auto& [p, across, down] = square;
+  if ((p[0] & p[1] & p[2] & p[3]) >> 24 == 255) {
+    const uint64_t upper = between(p[0], p[1], across), lower = between(p[2], p[3], across);
+    return glm::vec4(unpacked(upper * (kWhole - down) + lower * down), 1);
+  }
+  std::array<uint64_t, 4> sums{};  // less than 2^40 each
+  for (size_t i = 0; i < p.size(); ++i) {
+    const uint64_t weight = uint64_t{i % 2 == 0 ? kWhole - across : across} * (i < 2 ? kWhole - down : down);
+    const uint64_t alpha = weight * (p[i] >> 24);
+    for (size_t channel = 0; channel < 3; ++channel) sums[channel] += alpha * (p[i] >> 8 * channel & 0xff);
+    sums[3] += alpha;
+  }
+  constexpr float kUnit = 1.0f / (255.0f * kWhole * kWhole);
+  const auto part = [&](size_t channel) { return static_cast<float>(sums[channel]) * kUnit; };
+  return glm::vec4(glm::vec3(part(0), part(1), part(2)) / 255.0f, part(3));
+}
+
 }  // namespace
 
-glm::vec3 PyramidSampler::sample(const TextureLookup& lookup) {
+SurfaceKind PyramidSampler::surface(uint32_t texture) const {
+  FARCELL_CHECK(texture < pyramids_.size());
+  return pyramids_[texture].surface;
+}
+
+glm::vec4 PyramidSampler::sample(const TextureLookup& lookup) {
   FARCELL_CHECK(lookup.texture < pyramids_.size());
   const Pyramid& pyramid = pyramids_[lookup.texture];
-  if (pyramid.levels.empty()) return glm::vec3(1);
+  if (pyramid.levels.empty()) return glm::vec4(1);
   const glm::vec2 size(static_cast<float>(pyramid.levels[0].width), static_cast<float>(pyramid.levels[0].height));
   const Ellipse ellipse = ellipseOf(sane(lookup.alongX), sane(lookup.alongY), size);
   const float texelEdge = std::max({1.0f, ellipse.minor, ellipse.major / kMaxProbes});
   const int probes = std::clamp(static_cast<int>(ellipse.major / texelEdge + 0.5f), 1, kMaxProbes);
   const glm::vec2 at = sane(lookup.at);
-  glm::vec3 sum(0);
+  glm::vec4 sum(0);
   for (int i = 0; i < probes; ++i) {
     const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(probes) - 0.5f;
     sum += probe(pyramid, at + along * ellipse.axis, texelEdge);
   }
-  return sum / static_cast<float>(probes);
+  return sum.w > 0 ? glm::vec4(glm::vec3(sum) / sum.w, sum.w / static_cast<float>(probes)) : glm::vec4(0);
 }
 
 TextureShape PyramidSampler::shape(uint32_t texture) const {
@@ -114,17 +146,17 @@ TextureShape PyramidSampler::shape(uint32_t texture) const {
 }
 
 // Between the two levels whose texels are next in size to `texelEdge` >= 1.
-glm::vec3 PyramidSampler::probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge) {
+glm::vec4 PyramidSampler::probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge) {
   const auto last = pyramid.levels.size() - 1;
   const size_t level = std::bit_width(static_cast<uint64_t>(texelEdge)) - 1;
   if (level >= last) return bilinear(pyramid, pyramid.levels[last], at);
-  const glm::vec3 finer = bilinear(pyramid, pyramid.levels[level], at);
+  const glm::vec4 finer = bilinear(pyramid, pyramid.levels[level], at);
   const float rest = texelEdge / static_cast<float>(uint64_t{1} << level) - 1.0f;
   if (rest == 0) return finer;
   return finer + rest * (bilinear(pyramid, pyramid.levels[level + 1], at) - finer);
 }
 
-glm::vec3 PyramidSampler::bilinear(const Pyramid& pyramid, const PyramidLevel& level, glm::vec2 at) {
+glm::vec4 PyramidSampler::bilinear(const Pyramid& pyramid, const PyramidLevel& level, glm::vec2 at) {
   // Rows run down, v runs up. Half a pixel from the edge to its middle; then in parts of a pixel.
   const float x = reduced(at.x, pyramid.wrapU) * static_cast<float>(level.width) - 0.5f;
   const float y = reduced(1.0f - at.y, pyramid.wrapV) * static_cast<float>(level.height) - 0.5f;
@@ -133,9 +165,14 @@ glm::vec3 PyramidSampler::bilinear(const Pyramid& pyramid, const PyramidLevel& l
   const auto down = static_cast<uint32_t>((y - static_cast<float>(top)) * kWhole + 0.5f);
   const uint32_t x0 = wrapped(left, level.width, pyramid.wrapU), x1 = wrapped(left + 1, level.width, pyramid.wrapU);
   const uint32_t y0 = wrapped(top, level.height, pyramid.wrapV), y1 = wrapped(top + 1, level.height, pyramid.wrapV);
-  const uint64_t upper = between(pixel(pyramid, level, x0, y0), pixel(pyramid, level, x1, y0), across);
-  const uint64_t lower = between(pixel(pyramid, level, x0, y1), pixel(pyramid, level, x1, y1), across);
-  return unpacked(upper * (kWhole - down) + lower * down);
+  const Square square{{pixel(pyramid, level, x0, y0), pixel(pyramid, level, x1, y0), pixel(pyramid, level, x0, y1),
+                       pixel(pyramid, level, x1, y1)},
+                      across,
+                      down};
+  const glm::vec4 mean = meanOf(square);
+  const bool test = pyramid.surface.alpha == AlphaMode::mask && &level == pyramid.levels.data();
+  if (!test || mean.w == 0) return mean;
+  return passes(pyramid.surface, mean.w) ? glm::vec4(glm::vec3(mean) / mean.w, 1) : glm::vec4(0);
 }
 
 uint32_t PyramidSampler::pixel(const Pyramid& pyramid, const PyramidLevel& level, uint32_t x, uint32_t y) {

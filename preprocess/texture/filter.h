@@ -17,13 +17,15 @@ class PyramidSampler final : public TextureSampler {
   // Both must outlive the sampler. tiles: may be null when there are no pyramids.
   PyramidSampler(std::span<const Pyramid> pyramids, const ScratchFile* tiles) : pyramids_(pyramids), tiles_(tiles) {}
 
-  glm::vec3 sample(const TextureLookup& lookup) override;
+  glm::vec4 sample(const TextureLookup& lookup) override;
+  SurfaceKind surface(uint32_t texture) const override;
   TextureShape shape(uint32_t texture) const override;
   const std::optional<Error>& failure() const override { return tiles_.failure(); }
 
  private:
-  glm::vec3 probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge);
-  glm::vec3 bilinear(const Pyramid& pyramid, const PyramidLevel& level, glm::vec2 at);
+  // Colours times alpha, and alpha.
+  glm::vec4 probe(const Pyramid& pyramid, glm::vec2 at, float texelEdge);
+  glm::vec4 bilinear(const Pyramid& pyramid, const PyramidLevel& level, glm::vec2 at);
   uint32_t pixel(const Pyramid& pyramid, const PyramidLevel& level, uint32_t x, uint32_t y);
 
   std::span<const Pyramid> pyramids_;

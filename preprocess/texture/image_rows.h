@@ -12,14 +12,19 @@
 
 namespace farcell {
 
-// 0x00BBGGRR, display values as stored: no colour is converted, alpha is left out.
+// 0xAABBGGRR, display values as stored: no colour is converted nor multiplied with alpha; 255 where an image has none.
 using RowSink = std::function<Result<>(std::span<const uint32_t> row)>;
 
 // Every row from the top one down; the sink's error ends it and is returned. Any thread. Once a row was given, a later
 // one may still fail: corrupt. unsupported: the module cannot be loaded.
 Result<> decodeRows(const ImageData& image, const std::string& name, const RowSink& sink);
 
-// A whole image in memory.
+// What a source is an image of: as decodeRows, alpha 255 where it says nothing, else multiplied with the opacity.
+// `begin` is told the size, and gives the sink.
+using RowSinkOf = std::function<RowSink(int width, int height)>;
+Result<> readTextureRows(const TextureSource& source, const RowSinkOf& begin);
+
+// The same, whole in memory.
 struct TextureImage {
   int width = 0;
   int height = 0;

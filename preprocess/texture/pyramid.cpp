@@ -8,14 +8,25 @@ namespace {
 // Each pixel of the smaller row is the sum of what it covers of the larger one, in parts of the small row's width: a
 // large pixel x spans [x small, (x+1) small), a small pixel i [i large, (i+1) large).
 void sumAcross(std::span<const uint32_t> row, size_t smallWidth, std::vector<uint64_t>& sums) {
-  sums.assign(3 * smallWidth, 0);
+  sums.assign(4 * smallWidth, 0);
   for (size_t i = 0; i < smallWidth; ++i) {
     const size_t begin = i * row.size(), end = begin + row.size();
     for (size_t x = begin / smallWidth; x * smallWidth < end; ++x) {
       const uint64_t share = std::min(end, (x + 1) * smallWidth) - std::max(begin, x * smallWidth);
-      for (size_t channel = 0; channel < 3; ++channel) sums[3 * i + channel] += share * (row[x] >> 8 * channel & 0xff);
+      const uint64_t weight = share * (row[x] >> 24);
+      for (size_t channel = 0; channel < 3; ++channel) sums[4 * i + channel] += weight * (row[x] >> 8 * channel & 0xff);
+      sums[4 * i + 3] += weight;
     }
   }
+}
+
+std::vector<uint32_t> whatIsLeft(std::span<const uint32_t> row, const SurfaceKind& mask) {
+  std::vector<uint32_t> left(row.begin(), row.end());
+  for (uint32_t& pixel : left) {
+    const bool kept = passes(mask, static_cast<float>(pixel >> 24) / 255.0f);
+    pixel = (pixel & 0xffffff) | (kept ? 0xff000000u : 0u);
+  }
+  return left;
 }
 
 PyramidLevel levelOf(int width, int height, uint64_t firstTile) {
@@ -24,10 +35,14 @@ PyramidLevel levelOf(int width, int height, uint64_t firstTile) {
 }
 
 std::vector<uint32_t> meanRow(const std::vector<uint64_t>& sums, uint64_t whole) {
-  std::vector<uint32_t> row(sums.size() / 3);
-  for (size_t i = 0; i < row.size(); ++i)
-    for (size_t channel = 0; channel < 3; ++channel)
-      row[i] |= static_cast<uint32_t>((sums[3 * i + channel] + whole / 2) / whole) << 8 * channel;
+  std::vector<uint32_t> row(sums.size() / 4);
+  const auto mean = [](uint64_t sum, uint64_t weight) { return static_cast<uint32_t>((sum + weight / 2) / weight); };
+  for (size_t i = 0; i < row.size(); ++i) {
+    const uint64_t alpha = sums[4 * i + 3];
+    row[i] = mean(alpha, whole) << 24;
+    for (size_t channel = 0; channel < 3 && alpha > 0; ++channel)
+      row[i] |= mean(sums[4 * i + channel], alpha) << 8 * channel;
+  }
   return row;
 }
 
@@ -47,11 +62,11 @@ uint64_t tileCount(std::span<const PyramidLevel> levels) {
   return last.firstTile + uint64_t{last.tilesAcross} * last.tilesDown;
 }
 
-PyramidBuilder::PyramidBuilder(std::span<const PyramidLevel> levels, const Sink& sink)
-    : levels_(levels), sink_(sink), rows_(levels.size()) {
+PyramidBuilder::PyramidBuilder(std::span<const PyramidLevel> levels, const SurfaceKind& surface, const Sink& sink)
+    : levels_(levels), surface_(surface), sink_(sink), rows_(levels.size()) {
   for (size_t i = 0; i < levels.size(); ++i) {
     rows_[i].tiles.resize(levels[i].tilesAcross * kTilePixels);
-    if (i + 1 < levels.size()) rows_[i].sums.resize(3 * static_cast<size_t>(levels[i + 1].width));
+    if (i + 1 < levels.size()) rows_[i].sums.resize(4 * static_cast<size_t>(levels[i + 1].width));
   }
 }
 
@@ -62,7 +77,10 @@ Result<> PyramidBuilder::addRow(size_t level, std::span<const uint32_t> row) {
   for (size_t x = 0; x < row.size(); x += kTileEdge)
     std::copy_n(row.begin() + static_cast<ptrdiff_t>(x), std::min<size_t>(kTileEdge, row.size() - x),
                 own.tiles.begin() + static_cast<ptrdiff_t>(x / kTileEdge * kTilePixels + inTile * kTileEdge));
-  if (level + 1 < levels_.size()) FARCELL_TRY(halve(level, row));
+  if (level + 1 < levels_.size()) {
+    const bool mask = level == 0 && surface_.alpha == AlphaMode::mask;
+    FARCELL_TRY(mask ? halve(level, whatIsLeft(row, surface_)) : halve(level, row));
+  }
   ++own.rows;
   if (own.rows % kTileEdge != 0 && own.rows != size.height) return {};
   const auto tileRow = static_cast<uint64_t>((own.rows - 1) / kTileEdge);

@@ -1,4 +1,8 @@
 // An image and its halved, quartered, ... versions, cut into tiles, made row by row as the image is decoded.
+//
+// Pixels are 0xAABBGGRR. Means of colours are weighted by alpha: what is transparent colours nothing. The smaller
+// versions of a mask hold how much of it is left: what of a mask's mean alpha exceeds the cutoff says nothing about its
+// area.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +11,7 @@
 #include <vector>
 
 #include "cache/base/result.h"
+#include "preprocess/mesh/texture_source.h"
 
 namespace farcell {
 
@@ -24,18 +29,21 @@ struct PyramidLevel {
 std::vector<PyramidLevel> pyramidLevels(int width, int height);
 uint64_t tileCount(std::span<const PyramidLevel> levels);
 
+// Whether a mask has surface where alpha, in [0, 1], is this.
+inline bool passes(const SurfaceKind& mask, float alpha) { return alpha >= mask.cutoff; }
+
 class PyramidBuilder {
  public:
   // Takes consecutive tiles, the first of them by its index in the pyramid.
   using Sink = std::function<Result<>(uint64_t firstTile, std::span<const uint32_t> pixels)>;
 
-  // Both must outlive the builder. The memory it takes: some 64 rows of the image.
-  PyramidBuilder(std::span<const PyramidLevel> levels, const Sink& sink);
-  // The next row of the image, 0x00BBGGRR, levels[0].width long. After the last one the pyramid is complete.
+  // Levels and sink must outlive the builder. The memory it takes: some 64 rows of the image.
+  PyramidBuilder(std::span<const PyramidLevel> levels, const SurfaceKind& surface, const Sink& sink);
+  // The next row of the image, levels[0].width long. After the last one the pyramid is complete.
   Result<> addRow(std::span<const uint32_t> row) { return addRow(0, row); }
 
  private:
-  using Sums = std::vector<uint64_t>;  // three channels a pixel
+  using Sums = std::vector<uint64_t>;  // three channels times alpha, and alpha, a pixel
   struct LevelRows {
     std::vector<uint32_t> tiles;  // the row of tiles that is being filled
     int rows = 0;                 // of the level, taken so far
@@ -46,6 +54,7 @@ class PyramidBuilder {
   Result<> halve(size_t level, std::span<const uint32_t> row);
 
   std::span<const PyramidLevel> levels_;
+  const SurfaceKind surface_;
   const Sink& sink_;
   std::vector<LevelRows> rows_;
 };

@@ -13,7 +13,7 @@
 namespace farcell {
 namespace {
 
-constexpr uint64_t kMagic = 0x31727574'78657466;  // "ftextur1"
+constexpr uint64_t kMagic = 0x32727574'78657466;  // "ftextur2"
 constexpr uint64_t kTileBytes = kTilePixels * sizeof(uint32_t);
 
 std::filesystem::path tilesIn(const std::filesystem::path& directory) { return directory / "textures.tiles"; }
@@ -25,6 +25,10 @@ void put(SealedWriter& writer, const Pyramid& pyramid) {
   writer.put(pyramid.firstTile);
   writer.put(pyramid.wrapU);
   writer.put(pyramid.wrapV);
+  writer.put(pyramid.surface.hasImage);
+  writer.put(pyramid.surface.doubleSided);
+  writer.put(pyramid.surface.alpha);
+  writer.put(pyramid.surface.cutoff);
 }
 
 bool get(SealedReader& reader, Pyramid& pyramid) {
@@ -34,7 +38,10 @@ bool get(SealedReader& reader, Pyramid& pyramid) {
     if (!reader.get(level)) return false;
     pyramid.levels.push_back(level);
   }
-  return reader.get(pyramid.firstTile) && reader.get(pyramid.wrapU) && reader.get(pyramid.wrapV);
+  SurfaceKind& surface = pyramid.surface;
+  return reader.get(pyramid.firstTile) && reader.get(pyramid.wrapU) && reader.get(pyramid.wrapV) &&
+         reader.get(surface.hasImage) && reader.get(surface.doubleSided) && reader.get(surface.alpha) &&
+         reader.get(surface.cutoff);
 }
 
 // What became of one source: an image that cannot be used, or a failure that ends the build, or neither.
@@ -54,6 +61,7 @@ class Loader {
     const Result<> decoded = decode(source, loaded);
     if (!loaded.result || decoded) return loaded;
     loaded.pyramid.levels.clear();
+    loaded.pyramid.surface.alpha = AlphaMode::opaque;
     loaded.leftOut = decoded.error();
     return loaded;
   }
@@ -61,16 +69,19 @@ class Loader {
  private:
   // A failure to write goes to loaded.result as well.
   Result<> decode(const TextureSource& source, Loaded& loaded) {
-    FARCELL_ASSIGN(const ImageData image, readImageData(source));
     Pyramid& pyramid = loaded.pyramid;
-    pyramid = {pyramidLevels(image.width, image.height), 0, source.wrapU, source.wrapV};
-    pyramid.firstTile = nextTile_.fetch_add(tileCount(pyramid.levels));
+    pyramid = {{}, 0, source.wrapU, source.wrapV, source.surface};
     const PyramidBuilder::Sink write = [&](uint64_t firstTile, std::span<const uint32_t> pixels) {
       loaded.result = tiles_.writeAt((pyramid.firstTile + firstTile) * kTileBytes, std::as_bytes(pixels));
       return loaded.result;
     };
-    PyramidBuilder builder(pyramid.levels, write);
-    return decodeRows(image, source.file.string(), [&](std::span<const uint32_t> row) { return builder.addRow(row); });
+    std::optional<PyramidBuilder> builder;
+    return readTextureRows(source, [&](int width, int height) -> RowSink {
+      pyramid.levels = pyramidLevels(width, height);
+      pyramid.firstTile = nextTile_.fetch_add(tileCount(pyramid.levels));
+      builder.emplace(pyramid.levels, pyramid.surface, write);
+      return [&](std::span<const uint32_t> row) { return builder->addRow(row); };
+    });
   }
 
   ScratchFile& tiles_;

@@ -30,6 +30,7 @@ struct Pyramid {
   std::vector<PyramidLevel> levels;  // empty: left out
   uint64_t firstTile = 0;            // in the file
   TextureWrap wrapU = TextureWrap::repeat, wrapV = TextureWrap::repeat;
+  SurfaceKind surface;
 };
 
 class Textures {

@@ -95,6 +95,24 @@ TEST(Textured, quadShowsItsRepeatedImageNearAndFar) {
   EXPECT_GT(same, kEdge * kEdge / 64 * 3 / 4);
 }
 
+// A sheet of white that is a quarter there, in front of nothing: MTL's `d`.
+TEST(Textured, aSheetThatIsAQuarterThereCoversAQuarter) {
+  const auto write = [](const std::filesystem::path& mesh) -> Result<> {
+    std::ofstream(mesh.parent_path() / "sheet.mtl") << "newmtl glass\nKd 1 1 1\nd 0.25\n";
+    std::ofstream(mesh) << "mtllib sheet.mtl\nusemtl glass\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+                        << "f 1 2 3\nf 1 3 4\n";
+    return {};
+  };
+  DrawnPack drawn = buildDrawn("sheet.obj", write, kPlentyBytes);
+  FrameImage image;
+  drawn.draw(above(2), sized(kEdge, kEdge, RenderMode::full), image);
+  double coverage = 0, colour = 0;
+  for (size_t i = 0; i < image.rgba.size(); i += 4) colour += image.rgba[i], coverage += image.rgba[i + 3];
+  const double pixels = kEdge * kEdge;
+  EXPECT_NEAR(coverage / pixels / 255, 0.25, 0.01);
+  EXPECT_NEAR(colour / coverage, lightOf(drawn), 0.02);  // its own colour where it is
+}
+
 TEST(Textured, picturesDoNotDependOnTheBytesThatTheGpuMayKeepButForFineness) {
   DrawnPack plenty = checkeredQuad(), little = checkeredQuad(4096);
   const float light = lightOf(plenty);

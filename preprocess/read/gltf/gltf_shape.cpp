@@ -153,7 +153,12 @@ constexpr std::array kBaseColourMembers = {
     JsonMember{"baseColorTexture", Kind::object, kOptional, &kTextureInfo},
 };
 constexpr JsonShape kBaseColour{kBaseColourMembers};
-constexpr std::array kMaterialMembers = {JsonMember{"pbrMetallicRoughness", Kind::object, kOptional, &kBaseColour}};
+constexpr std::array kMaterialMembers = {
+    JsonMember{"pbrMetallicRoughness", Kind::object, kOptional, &kBaseColour},
+    JsonMember{"alphaMode", Kind::string},
+    JsonMember{"alphaCutoff", Kind::number},
+    JsonMember{"doubleSided", Kind::boolean},
+};
 constexpr JsonShape kMaterial{kMaterialMembers};
 constexpr std::array kTextureMembers = {JsonMember{"sampler", Kind::index}, JsonMember{"source", Kind::index}};
 constexpr JsonShape kTexture{kTextureMembers};

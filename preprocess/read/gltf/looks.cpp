@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +36,20 @@ Result<TextureWrap> wrapOf(const GltfPlace& place, int mode) {
   if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return TextureWrap::mirror;
   if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::clamp;
   return place.bad("10497, 33648 or 33071", std::to_string(mode));
+}
+
+Result<SurfaceKind> surfaceOf(const GltfPlace& place, const tinygltf::Material& material) {
+  SurfaceKind surface;
+  surface.doubleSided = material.doubleSided;
+  if (material.alphaMode == "MASK") {
+    surface.alpha = AlphaMode::mask;
+    surface.cutoff = static_cast<float>(std::clamp(material.alphaCutoff, 0.0, 2.0));  // beyond 1 nothing is left
+  } else if (material.alphaMode == "BLEND") {
+    surface.alpha = AlphaMode::blend;
+  } else if (material.alphaMode != "OPAQUE") {
+    return place.in("alphaMode").bad("OPAQUE, MASK or BLEND", material.alphaMode);
+  }
+  return surface;
 }
 
 }  // namespace
@@ -77,30 +92,54 @@ Result<GltfLook> GltfLooks::look(const GltfPlace& user, int material) {
   const std::vector<double>& factor = base.baseColorFactor;
   look.factor = {factor[0], factor[1], factor[2]};
   const tinygltf::TextureInfo& info = base.baseColorTexture;
-  if (info.index < 0) return look;
-  const GltfPlace place = buffers_.place(fmt::format("materials[{}].pbrMetallicRoughness.baseColorTexture", index));
-  FARCELL_ASSIGN(look.texture, texture(place, static_cast<uint64_t>(info.index)));
+  if (info.index >= 0) {
+    FARCELL_ASSIGN(look.texture, texture(index));
+  }
+  look.hasImage = look.texture != kNoTexture;
+  if (!look.hasImage) {
+    FARCELL_ASSIGN(look.texture, plainTexture(index));
+  }
   look.textureCoordinates = static_cast<uint32_t>(info.texCoord);
   if (const auto found = info.extensions.find(kTransformExtension); found != info.extensions.end())
     applyTransform(found->second, look);
   return look;
 }
 
-Result<uint32_t> GltfLooks::texture(const GltfPlace& place, uint64_t index) {
+Result<GltfLooks::Known> GltfLooks::withoutImage(size_t material) const {
+  const tinygltf::Material& from = model_.materials[material];
+  Known wanted;
+  FARCELL_ASSIGN(wanted.surface, surfaceOf(buffers_.place(fmt::format("materials[{}]", material)), from));
+  const double opacity = from.pbrMetallicRoughness.baseColorFactor[3];
+  if (wanted.surface.alpha != AlphaMode::opaque) wanted.opacity = static_cast<float>(std::clamp(opacity, 0.0, 1.0));
+  return wanted;
+}
+
+Result<uint32_t> GltfLooks::plainTexture(size_t material) {
+  FARCELL_ASSIGN(const Known wanted, withoutImage(material));
+  if (wanted.surface.whole()) return kNoTexture;
+  return entry(wanted);
+}
+
+Result<uint32_t> GltfLooks::texture(size_t material) {
+  const GltfPlace place = buffers_.place(fmt::format("materials[{}].pbrMetallicRoughness.baseColorTexture", material));
+  FARCELL_ASSIGN(Known wanted, withoutImage(material));
+  const auto index = static_cast<size_t>(model_.materials[material].pbrMetallicRoughness.baseColorTexture.index);
   if (index >= model_.textures.size())
     return place.in("index").bad(fmt::format("one of {} textures", model_.textures.size()), std::to_string(index));
   const tinygltf::Texture& texture = model_.textures[index];
   if (texture.source < 0) return kNoTexture;  // an extension brings an image of a kind that is not read
   const GltfPlace at = buffers_.place(fmt::format("textures[{}]", index));
-  Known wanted{static_cast<uint64_t>(texture.source), {}};
+  wanted.image = static_cast<uint64_t>(texture.source);
   FARCELL_ASSIGN(wanted.wrap, wrapsOf(at, texture.sampler));
-  if (wanted.image >= images_.size())
-    return at.in("source").bad(fmt::format("one of {} images", images_.size()), std::to_string(wanted.image));
+  if (*wanted.image >= images_.size())
+    return at.in("source").bad(fmt::format("one of {} images", images_.size()), std::to_string(*wanted.image));
+  return entry(wanted);
+}
+
+Result<uint32_t> GltfLooks::entry(const Known& wanted) {
   const auto found = std::find(known_.begin(), known_.end(), wanted);
   if (found != known_.end()) return static_cast<uint32_t>(found - known_.begin());
-  FARCELL_ASSIGN(TextureSource from, source(wanted.image));
-  from.wrapU = wanted.wrap[0];
-  from.wrapV = wanted.wrap[1];
+  FARCELL_ASSIGN(TextureSource from, source(wanted));
   known_.push_back(wanted);
   textures_.push_back(std::move(from));
   return static_cast<uint32_t>(textures_.size() - 1);
@@ -118,8 +157,19 @@ Result<std::array<TextureWrap, 2>> GltfLooks::wrapsOf(const GltfPlace& place, in
   return wraps;
 }
 
-Result<TextureSource> GltfLooks::source(uint64_t image) {
-  return imageSource(buffers_, buffers_.place(fmt::format("images[{}]", image)), images_[image]);
+Result<TextureSource> GltfLooks::source(const Known& wanted) {
+  TextureSource from;
+  from.file = buffers_.path();
+  if (wanted.image) {
+    FARCELL_ASSIGN(
+        from, imageSource(buffers_, buffers_.place(fmt::format("images[{}]", *wanted.image)), images_[*wanted.image]));
+  }
+  from.wrapU = wanted.wrap[0];
+  from.wrapV = wanted.wrap[1];
+  from.surface = wanted.surface;
+  from.surface.hasImage = wanted.image.has_value();
+  from.opacity = wanted.opacity;
+  return from;
 }
 
 }  // namespace farcell

@@ -1,4 +1,4 @@
-// What materials say of a surface's colour.
+// What materials say of a surface: its colour, where it is none, and from which sides it is seen.
 #pragma once
 
 #include <array>
@@ -29,6 +29,7 @@ struct TextureTransform {
 struct GltfLook {
   glm::dvec3 factor{1};  // of the base colour, linear light
   uint32_t texture = kNoTexture;
+  bool hasImage = false;            // the texture: corners need coordinates on it
   uint32_t textureCoordinates = 0;  // the set: TEXCOORD_n
   TextureTransform transform;
 };
@@ -52,20 +53,26 @@ class GltfLooks {
   GltfLooks(const tinygltf::Model& model, std::vector<GltfImage> images, GltfBuffers& buffers)
       : model_(model), images_(std::move(images)), buffers_(buffers) {}
 
-  // material -1: glTF's default, white.
+  // material -1: none. White, and seen from both sides: a mesh that names no material says nothing about sides.
   Result<GltfLook> look(const GltfPlace& user, int material);
+  // The texture of corners without coordinates on the material's image: none, or one without an image.
+  Result<uint32_t> plainTexture(size_t material);
   // Named by the looks given so far.
   std::vector<TextureSource> takeTextures() { return std::move(textures_); }
 
  private:
   struct Known {
-    uint64_t image = 0;
+    std::optional<uint64_t> image;
     std::array<TextureWrap, 2> wrap{};
+    SurfaceKind surface;
+    float opacity = 1;
     bool operator==(const Known&) const = default;
   };
-  Result<uint32_t> texture(const GltfPlace& place, uint64_t index);
+  Result<uint32_t> texture(size_t material);
+  Result<uint32_t> entry(const Known& wanted);
+  Result<Known> withoutImage(size_t material) const;
   Result<std::array<TextureWrap, 2>> wrapsOf(const GltfPlace& place, int sampler) const;
-  Result<TextureSource> source(uint64_t image);
+  Result<TextureSource> source(const Known& wanted);
 
   const tinygltf::Model& model_;
   std::vector<GltfImage> images_;

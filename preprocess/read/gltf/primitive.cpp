@@ -74,10 +74,9 @@ Result<> PrimitiveCheck::checkAttributes() {
   out_.vertices = position->count;
   FARCELL_ASSIGN(out_.normal, attribute("NORMAL", kNormalUse));
   FARCELL_ASSIGN(out_.colour, attribute("COLOR_0", kColourUse));
-  if (out_.look.texture == kNoTexture) return {};
+  if (!out_.look.hasImage) return {};
   const std::string set = fmt::format("TEXCOORD_{}", out_.look.textureCoordinates);
   FARCELL_ASSIGN(out_.textureCoordinates, attribute(set, kTextureCoordinatesUse));
-  if (!out_.textureCoordinates.exists()) out_.look.texture = kNoTexture;
   return {};
 }
 
@@ -147,6 +146,9 @@ Result<std::optional<GltfPrimitive>> readPrimitive(const GltfPlace& place, const
   PrimitiveCheck check(place, from, accessors, primitive);
   FARCELL_TRY(check.checkFallback());
   FARCELL_TRY(check.checkAttributes());
+  if (primitive.look.hasImage && !primitive.textureCoordinates.exists()) {
+    FARCELL_ASSIGN(primitive.look.texture, looks.plainTexture(static_cast<size_t>(from.material)));
+  }
   FARCELL_TRY(check.checkCorners());
   FARCELL_TRY(check.checkDraco(buffers));
   return primitive;

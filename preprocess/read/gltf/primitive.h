@@ -32,7 +32,7 @@ struct GltfPrimitive {
   GltfAttribute position;
   GltfAttribute normal;
   GltfAttribute colour;
-  GltfAttribute textureCoordinates;  // of the look's texture; without them it has none
+  GltfAttribute textureCoordinates;  // of the look's texture; without them it has the plain one
   uint32_t indices = kNoAccessor;
   std::optional<uint64_t> dracoView;
   uint64_t vertices = 0;

@@ -20,7 +20,7 @@ class TriangleEmitter {
         isPlaced_(!worldFromMesh.isIdentity()),
         isMirrored_(worldFromMesh.isMirrored()),
         batch_(batch) {
-    triangle_.texture = vertices.vertices.shape().hasTextureCoordinates ? texture : kNoTexture;
+    triangle_.texture = texture;
     triangle_.colours.fill(vertices.colour);
     triangle_.normals.fill(glm::vec3(0));
     triangle_.textureCoordinates.fill(glm::vec2(0));

@@ -9,7 +9,39 @@
 namespace farcell {
 namespace {
 constexpr uint32_t kWhite = 0xffffff;
+
+bool isFile(const std::filesystem::path& path) {
+  std::error_code code;
+  return std::filesystem::is_regular_file(path, code);
 }
+
+// An image that both maps name has what both want: its colours and its alpha.
+TextureSource sourceOf(const ObjMaterial& material) {
+  TextureSource source;
+  const bool hasOpacityMap = material.opacityMap && isFile(material.opacityFile);
+  source.surface.hasImage = material.map || hasOpacityMap;
+  source.opacity = material.opacity.value_or(1.0f);
+  if (hasOpacityMap || source.opacity < 1) source.surface.alpha = AlphaMode::blend;
+  if (material.map) source.file = material.mapFile;
+  if (hasOpacityMap && material.opacityFile != source.file) source.opacityFile = material.opacityFile;
+  const bool clamped = (material.map ? material.map : material.opacityMap).value_or(ObjMap{}).clamped;
+  source.wrapU = source.wrapV = clamped ? TextureWrap::clamp : TextureWrap::repeat;
+  return source;
+}
+
+TextureSource withoutImages(const TextureSource& source) {
+  TextureSource plain;
+  plain.surface = source.surface;
+  plain.surface.hasImage = false;
+  plain.opacity = source.opacity;
+  return plain;
+}
+
+bool areAlike(const TextureSource& a, const TextureSource& b) {
+  return a.file == b.file && a.opacityFile == b.opacityFile && a.wrapU == b.wrapU && a.surface == b.surface &&
+         a.opacity == b.opacity;
+}
+}  // namespace
 
 ObjLooks::ObjLooks(const ObjMaterials& materials, const std::unordered_set<std::string>& used)
     : plain_{defaultColour(), kWhite} {
@@ -17,10 +49,12 @@ ObjLooks::ObjLooks(const ObjMaterials& materials, const std::unordered_set<std::
     const ObjMaterial* material = materials.find(name);
     if (material == nullptr) continue;
     ObjLook look{material->colour.value_or(defaultColour()), material->colour.value_or(kWhite)};
-    if (material->map) {
-      look.texture = textureOf(*material);
-      look.scale = material->map->scale;
-      look.offset = material->map->offset;
+    const TextureSource source = sourceOf(*material);
+    if (!source.surface.whole()) look.plainTexture = textureOf(withoutImages(source));
+    look.texture = source.surface.hasImage ? textureOf(source) : look.plainTexture;
+    if (const auto& map = material->map ? material->map : material->opacityMap) {
+      look.scale = map->scale;
+      look.offset = map->offset;
     }
     looks_.emplace(name, look);
   }
@@ -33,24 +67,19 @@ const ObjLook& ObjLooks::find(std::string_view material) const {
 
 std::vector<std::filesystem::path> ObjLooks::files() const {
   std::vector<std::filesystem::path> files;
-  for (const TextureSource& texture : textures_) {
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(texture.file, code)) continue;
-    if (std::find(files.begin(), files.end(), texture.file) == files.end()) files.push_back(texture.file);
-  }
+  for (const TextureSource& texture : textures_)
+    for (const std::filesystem::path& file : {texture.file, texture.opacityFile})
+      if (isFile(file) && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   return files;
 }
 
-// Materials share an image that they wrap alike.
-uint32_t ObjLooks::textureOf(const ObjMaterial& material) {
-  const TextureWrap wrap = material.map->clamped ? TextureWrap::clamp : TextureWrap::repeat;
-  size_t i = 0;
-  while (i < textures_.size() && (textures_[i].file != material.mapFile || textures_[i].wrapU != wrap)) ++i;
-  if (i == textures_.size()) {
-    textures_.emplace_back().file = material.mapFile;
-    textures_[i].wrapU = textures_[i].wrapV = wrap;
-  }
-  return static_cast<uint32_t>(i);
+// Materials share what they use alike.
+uint32_t ObjLooks::textureOf(const TextureSource& wanted) {
+  const auto found = std::find_if(textures_.begin(), textures_.end(),
+                                  [&](const TextureSource& known) { return areAlike(known, wanted); });
+  const auto index = static_cast<uint32_t>(found - textures_.begin());
+  if (found == textures_.end()) textures_.push_back(wanted);
+  return index;
 }
 
 }  // namespace farcell

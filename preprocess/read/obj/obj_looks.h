@@ -1,4 +1,8 @@
 // What the materials that faces use make of them.
+//
+// OBJ files do not say which sides are seen: both are. Alpha in the image of map_Kd counts only where the material has
+// an opacity (d, Tr) below 1 or an image of it (map_d), as in three.js and Blender: many images have an alpha that
+// nobody looked at. What is transparent is blended: the format knows no masks.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +23,7 @@ struct ObjLook {
   uint32_t colour;          // Kd, of a face without texture coordinates
   uint32_t texturedColour;  // Kd, or white
   uint32_t texture = kNoTexture;
+  uint32_t plainTexture = kNoTexture;  // of a face without texture coordinates: one without an image
   glm::vec2 scale{1}, offset{0};
 };
 
@@ -33,7 +38,7 @@ class ObjLooks {
   std::vector<std::filesystem::path> files() const;
 
  private:
-  uint32_t textureOf(const ObjMaterial& material);
+  uint32_t textureOf(const TextureSource& wanted);
 
   ObjLook plain_;
   std::unordered_map<std::string, ObjLook> looks_;

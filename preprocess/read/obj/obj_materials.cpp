@@ -1,6 +1,8 @@
 #include "preprocess/read/obj/obj_materials.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <system_error>
 
 #include "cache/base/file.h"
@@ -22,6 +24,16 @@ bool parseKd(std::string_view rest, uint32_t& colour) {
   return true;
 }
 
+// "d 0.5", "d -halo 0.5" (less where the surface is seen aslant, which is passed over)
+bool parseOpacity(std::string_view rest, float& opacity) {
+  std::string_view word = takeWord(rest);
+  if (word == "-halo") word = takeWord(rest);
+  double value = 0;
+  if (!parseNumber(word, value) || !std::isfinite(value)) return false;
+  opacity = static_cast<float>(std::clamp(value, 0.0, 1.0));
+  return true;
+}
+
 }  // namespace
 
 bool ObjMaterials::addLibrary(std::string_view name) {
@@ -40,11 +52,14 @@ bool ObjMaterials::addLibrary(std::string_view name) {
     uint32_t colour = 0;
     if (keyword == "newmtl") material = trimmed(line);
     if (keyword == "Kd" && parseKd(line, colour)) materials_[material].colour = colour;
-    if (keyword == "map_Kd") {
-      ObjMaterial& textured = materials_[material];
-      textured.map = parseObjMap(line);
-      if (textured.map) textured.mapFile = mapFile(files_.back(), *textured.map);
-    }
+    float opacity = 1;
+    if (keyword == "d" && parseOpacity(line, opacity)) materials_[material].opacity = opacity;
+    if (keyword == "Tr" && parseOpacity(line, opacity)) materials_[material].opacity = 1 - opacity;
+    if (keyword != "map_Kd" && keyword != "map_d") continue;
+    ObjMaterial& textured = materials_[material];
+    std::optional<ObjMap>& map = keyword == "map_Kd" ? textured.map : textured.opacityMap;
+    map = parseObjMap(line);
+    if (map) (keyword == "map_Kd" ? textured.mapFile : textured.opacityFile) = mapFile(files_.back(), *map);
   }
   return true;
 }
@@ -62,8 +77,9 @@ std::filesystem::path ObjMaterials::mapFile(const std::filesystem::path& library
 
 const ObjMaterial* ObjMaterials::find(const std::string& material) const {
   const auto found = materials_.find(material);
-  if (found == materials_.end() || (!found->second.colour && !found->second.map)) return nullptr;
-  return &found->second;
+  if (found == materials_.end()) return nullptr;
+  const ObjMaterial& known = found->second;
+  return known.colour || known.map || known.opacity || known.opacityMap ? &known : nullptr;
 }
 
 }  // namespace farcell

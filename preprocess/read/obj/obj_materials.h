@@ -1,4 +1,5 @@
-// Diffuse colours (Kd) and their textures (map_Kd) of the materials that an OBJ file names.
+// Diffuse colours (Kd), opacities (d, Tr) and the textures of both (map_Kd, map_d) of the materials that an OBJ file
+// names.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,9 @@ namespace farcell {
 struct ObjMaterial {
   std::optional<uint32_t> colour;  // 0x00BBGGRR
   std::optional<ObjMap> map;
+  std::optional<float> opacity;  // in [0, 1]
+  std::optional<ObjMap> opacityMap;
+  std::filesystem::path opacityFile;
   std::filesystem::path mapFile;  // beside the library that names it, or else beside the OBJ file; with a map
 };
 
@@ -30,7 +34,7 @@ class ObjMaterials {
   void addLibraries(std::string_view names);
   // The libraries that were read, in the order of the OBJ file.
   const std::vector<std::filesystem::path>& files() const { return files_; }
-  // Null when the material is unknown or has neither colour nor texture.
+  // Null when the material is unknown or says nothing of the above.
   const ObjMaterial* find(const std::string& material) const;
 
  private:

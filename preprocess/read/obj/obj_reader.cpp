@@ -174,12 +174,12 @@ class ObjReader final : public MeshReader {
   MeshInfo info_;
 };
 
-// A triangle without coordinates at every corner has no texture.
+// A triangle without coordinates at every corner shows no image.
 TriangleBatch::FaceLook ObjReader::lookOf(const ObjLook& look, const std::array<ObjCorner, 3>& corners) const {
-  if (look.texture == kNoTexture) return {look.colour};
+  if (look.texture == look.plainTexture) return {look.colour, look.plainTexture};
   TriangleBatch::FaceLook textured{look.texturedColour, look.texture};
   for (size_t k = 0; k < 3; ++k) {
-    if (corners[k].coordinates >= contents_.coordinates.size()) return {look.colour};
+    if (corners[k].coordinates >= contents_.coordinates.size()) return {look.colour, look.plainTexture};
     textured.textureCoordinates[k] = contents_.coordinates[corners[k].coordinates] * look.scale + look.offset;
   }
   return textured;

@@ -15,9 +15,10 @@ constexpr int kMaxChannels = 4;
 
 // Grey is one or two channels, colour three or four; the even ones have alpha last.
 void packRow(const uint8_t* from, int channels, std::span<uint32_t> to) {
-  const bool grey = channels < 3;
+  const bool grey = channels < 3, transparent = channels % 2 == 0;
   for (uint32_t& pixel : to) {
-    pixel = from[0] | uint32_t{from[grey ? 0 : 1]} << 8 | uint32_t{from[grey ? 0 : 2]} << 16;
+    pixel = from[0] | uint32_t{from[grey ? 0 : 1]} << 8 | uint32_t{from[grey ? 0 : 2]} << 16 |
+            uint32_t{transparent ? from[channels - 1] : uint8_t{255}} << 24;
     from += channels;
   }
 }

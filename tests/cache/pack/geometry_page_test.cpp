@@ -336,9 +336,8 @@ TEST(OptimisedOrder, KeepsEveryTriangleAndItsWindingAndDropsUnusedVertices) {
   for (uint32_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const GeometryPage page =
-        randomGeometry(random, 3 + seed * 7, 1 + seed * 11, kMaxCoordinate, seed % 2, seed % 3 == 1,
-                       seed % 5 == 2, seed % 4 < 2);
+    const GeometryPage page = randomGeometry(random, 3 + seed * 7, 1 + seed * 11, kMaxCoordinate, seed % 2,
+                                             seed % 3 == 1, seed % 5 == 2, seed % 4 < 2);
     const GeometryPage ordered = optimisedOrder(page);
     EXPECT_EQ(triangleSet(ordered), triangleSet(page));
     std::vector<bool> used(ordered.positions.size());

@@ -14,7 +14,7 @@ using namespace test;
 class FunctionSampler final : public TextureSampler {
  public:
   explicit FunctionSampler(std::function<glm::vec3(const TextureLookup&)> colour) : colour_(std::move(colour)) {}
-  glm::vec3 sample(const TextureLookup& lookup) override { return colour_(lookup); }
+  glm::vec4 sample(const TextureLookup& lookup) override { return glm::vec4(colour_(lookup), 1); }
   const std::optional<Error>& failure() const override { return failure_; }
 
  private:

@@ -11,9 +11,9 @@ namespace {
 // Red is the middle of the footprint, green and blue its extent along u and v.
 class PlaceSampler final : public TextureSampler {
  public:
-  glm::vec3 sample(const TextureLookup& lookup) override {
+  glm::vec4 sample(const TextureLookup& lookup) override {
     const auto extent = [&](int axis) { return std::abs(lookup.alongX[axis]) + std::abs(lookup.alongY[axis]); };
-    return glm::vec3(lookup.at.x, extent(0), extent(1));
+    return glm::vec4(lookup.at.x, extent(0), extent(1), 1);
   }
   const std::optional<Error>& failure() const override { return failure_; }
 
@@ -84,7 +84,7 @@ TEST(VertexColours, TheFootprintIsSomeHalfATriangleAndWithinIt) {
 TEST(VertexColours, TexturesMultiplyColoursAndLeaveOthersAlone) {
   class Half final : public TextureSampler {
    public:
-    glm::vec3 sample(const TextureLookup&) override { return glm::vec3(0.5f, 1, 0); }
+    glm::vec4 sample(const TextureLookup&) override { return glm::vec4(0.5f, 1, 0, 1); }
     const std::optional<Error>& failure() const override { return failure_; }
 
    private:

@@ -90,9 +90,9 @@ TEST_F(HostileImages, EachIsLeftOutWithItsNameAndTheOthersStay) {
   for (size_t i = 0; i < bad.size(); ++i) {
     const std::string& message = textures.leftOut()[i].message;
     EXPECT_NE(message.find(fmt::format("bad{}.png", i)), std::string::npos) << message;
-    EXPECT_EQ(textures.sampler()->sample({static_cast<uint32_t>(i), {.5f, .5f}}), glm::vec3(1)) << "white";
+    EXPECT_EQ(textures.sampler()->sample({static_cast<uint32_t>(i), {.5f, .5f}}), glm::vec4(1)) << "white";
   }
-  EXPECT_NE(textures.sampler()->sample({static_cast<uint32_t>(bad.size()), {.5f, .5f}}), glm::vec3(1));
+  EXPECT_NE(textures.sampler()->sample({static_cast<uint32_t>(bad.size()), {.5f, .5f}}), glm::vec4(1));
 }
 
 TEST_F(HostileImages, WhatIsNoFileIsLeftOut) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,7 +52,7 @@ class TextureTest : public testing::Test {
   std::unique_ptr<TextureSampler> sampler_;
 };
 
-inline void expectNear(glm::vec3 found, glm::vec3 expected, float tolerance) {
+inline void expectNear(glm::vec4 found, glm::vec3 expected, float tolerance) {
   for (int channel = 0; channel < 3; ++channel)
     EXPECT_NEAR(found[channel], expected[channel], tolerance) << "channel " << channel;
 }

@@ -170,7 +170,7 @@ TEST_F(Textured, AnAnswerDoesNotDependOnWhatWasAskedBefore) {
     lookups.push_back(
         {static_cast<uint32_t>(i % 2), {place(random), place(random)}, {side(random), 0}, {0, side(random)}});
   const auto first = textures.sampler(), second = textures.sampler();
-  std::vector<glm::vec3> answers;
+  std::vector<glm::vec4> answers;
   for (const TextureLookup& lookup : lookups) answers.push_back(first->sample(lookup));
   for (size_t i = lookups.size(); i-- > 0;) ASSERT_EQ(second->sample(lookups[i]), answers[i]) << i;
   EXPECT_FALSE(first->failure() || second->failure());
@@ -182,8 +182,8 @@ TEST_F(Textured, NumbersThatAreNoneGiveAColour) {
     TextureSampler& textures = sampler(source("checker.png", checkerboard(5), wrap));
     for (const float x : {nan, inf, -inf, 3e38f, -3e38f, 1e-40f, 1e6f}) {
       for (const float y : {nan, inf, 3e38f, 0.0f}) {
-        const glm::vec3 colour = textures.sample({0, {x, y}, {y, x}, {x, x}});
-        for (int channel = 0; channel < 3; ++channel) EXPECT_TRUE(colour[channel] >= 0 && colour[channel] <= 1.0001f);
+        const glm::vec4 colour = textures.sample({0, {x, y}, {y, x}, {x, x}});
+        for (int channel = 0; channel < 4; ++channel) EXPECT_TRUE(colour[channel] >= 0 && colour[channel] <= 1.0001f);
       }
     }
   }

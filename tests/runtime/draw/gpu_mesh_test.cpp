@@ -94,8 +94,7 @@ TEST(GpuMesh, aStripOfFlatTrianglesNeedsNoCopies) {
 }
 
 TEST(GpuMesh, fileNormalsAndOrderAreKept) {
-  const GeometryPage page{
-      .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {1, 2, 3}, .indices = {0, 1, 2}};
+  const GeometryPage page{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {1, 2, 3}, .indices = {0, 1, 2}};
   const GpuMesh mesh = makeGpuMesh(page, GridPoint(0));
   EXPECT_EQ(mesh.indices, page.indices);
   for (uint32_t i = 0; i < 3; ++i) EXPECT_EQ(mesh.vertices[i].normal, i + 1);

@@ -20,6 +20,8 @@ std::string encodeImage(const char* format, const ImageShape& shape,
 
 // 4 x 2 pixels with a palette: red, green, blue, white; black, (10, 20, 30), (200, 100, 50), grey 128.
 std::string palettePng();
+// 3 x 1 pixels with a palette: red, green of alpha 51, blue.
+std::string palettePngWithAlpha();
 // All pixels (200, 100, 50): 40 x 24 interlaced, 16 x 16 in CMYK, 16 x 16 progressive.
 std::string interlacedPng();
 std::string cmykJpeg();

@@ -55,12 +55,29 @@ glm::vec3 albedoAt(const LocalTriangles& geometry, glm::uvec3 corners, float u, 
   return interpolate(geometry.colours, corners, u, v, colourFromBytes);
 }
 
-glm::vec3 textureAt(const LocalTriangles& geometry, uint32_t triangle, float u, float v) {
-  if (geometry.textureOf.empty() || geometry.textureOf[triangle] == kNoTexture) return glm::vec3(1);
+glm::vec4 textureAt(const LocalTriangles& geometry, uint32_t triangle, float u, float v) {
+  if (geometry.textureOf.empty() || geometry.textureOf[triangle] == kNoTexture) return glm::vec4(1);
   const glm::uvec3 corners = geometry.triangles[triangle];
   const glm::vec2 at = (1 - u - v) * geometry.coordinates[corners.x] + u * geometry.coordinates[corners.y] +
                        v * geometry.coordinates[corners.z];
   return geometry.textures.colourAt(geometry.textureOf[triangle], at);
+}
+
+bool isWhole(const LocalTriangles& geometry) {
+  return std::all_of(geometry.textureOf.begin(), geometry.textureOf.end(), [&](uint32_t texture) {
+    return texture == kNoTexture || geometry.textures.surface(texture).whole();
+  });
+}
+
+void filterHits(const RTCFilterFunctionNArguments* args) {
+  HitFilter& filter = *reinterpret_cast<const TraceContext*>(args->context)->filter;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const bool accepted = filter.accepts(RTCRayN_id(args->ray, args->N, i), RTCHitN_primID(args->hit, args->N, i),
+                                         RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i),
+                                         RTCRayN_tfar(args->ray, args->N, i));
+    if (!accepted) args->valid[i] = 0;
+  }
 }
 
 void shareBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const void* data, size_t count) {
@@ -86,6 +103,7 @@ Result<TracedGeometry> buildTracedGeometry(RTCDevice device, LocalTriangles tria
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, local.positions.data(), positions);
   shareBuffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, local.triangles.data(), local.triangles.size());
+  if (!isWhole(local)) rtcSetGeometryIntersectFilterFunction(geometry, filterHits);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(traced.scene.get(), geometry);
   rtcReleaseGeometry(geometry);
@@ -94,9 +112,18 @@ Result<TracedGeometry> buildTracedGeometry(RTCDevice device, LocalTriangles tria
   return traced;
 }
 
+float opacityAt(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::dvec3 direction) {
+  if (geometry.textureOf.empty() || geometry.textureOf[triangle] == kNoTexture) return 1;
+  const SurfaceKind& surface = geometry.textures.surface(geometry.textureOf[triangle]);
+  const glm::uvec3 corners = geometry.triangles[triangle];
+  const glm::dvec3 a(geometry.positions[corners.x]), b(geometry.positions[corners.y]), c(geometry.positions[corners.z]);
+  if (!surface.doubleSided && glm::dot(glm::cross(b - a, c - a), direction) >= 0) return 0;
+  return surface.alpha == AlphaMode::opaque ? 1 : textureAt(geometry, triangle, u, v).w;
+}
+
 glm::vec3 shadeHit(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::vec3 light) {
   const glm::uvec3 corners = geometry.triangles[triangle];
-  const glm::vec3 albedo = albedoAt(geometry, corners, u, v) * textureAt(geometry, triangle, u, v);
+  const glm::vec3 albedo = albedoAt(geometry, corners, u, v) * glm::vec3(textureAt(geometry, triangle, u, v));
   return shared::shade(albedo, normalAt(geometry, corners, u, v), light);
 }
 

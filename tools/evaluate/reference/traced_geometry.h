@@ -46,8 +46,26 @@ struct TracedGeometry {
   LocalTriangles triangles;
   EmbreeScene scene;  // empty when there are no triangles
 };
+// What decides of hits on geometry that is not a surface everywhere or for everyone; Embree is given its context, in
+// which it follows. Rays are named by RTCRay::id.
+class HitFilter {
+ public:
+  virtual bool accepts(uint32_t ray, uint32_t triangle, float u, float v, float distance) = 0;
+
+ protected:
+  ~HitFilter() = default;
+};
+struct TraceContext {
+  RTCIntersectContext embree;  // first
+  HitFilter* filter;
+};
+
 // Robust: rays along shared edges do not slip through. `exhausted` when Embree cannot.
 Result<TracedGeometry> buildTracedGeometry(RTCDevice device, LocalTriangles triangles);
+
+// How much of what a ray meets there the surface makes, in [0, 1]; 0 where it runs against the back of a triangle that
+// is seen from its front only.
+float opacityAt(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::dvec3 direction);
 
 // Lit colour, R, G, B in [0, 1], at barycentric (u, v) of a triangle as Embree reports them. `light` as in shading.h.
 glm::vec3 shadeHit(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::vec3 light);

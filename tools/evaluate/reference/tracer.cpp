@@ -19,7 +19,7 @@ bool traceable(glm::dvec3 p) { return std::abs(p.x) < 1e9 && std::abs(p.y) < 1e9
 }  // namespace
 
 // Up to 16 rays on their way through one geometry.
-class SampleImage::Packet {
+class SampleImage::Packet final : HitFilter {
  public:
   Packet(const TracedGeometry& geometry, const ReferenceView& view, double startDepth, int perAxis, glm::vec3 light)
       : geometry_(geometry),
@@ -28,8 +28,9 @@ class SampleImage::Packet {
         eye_((view.eye - geometry.triangles.origin) / geometry.triangles.unit),
         perAxis_(perAxis),
         light_(light) {
-    rtcInitIntersectContext(&context_);
-    context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcInitIntersectContext(&context_.embree);
+    context_.filter = this;
+    context_.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
 
   void add(Pixel& pixel, int x, int y, int sample) {
@@ -51,6 +52,7 @@ class SampleImage::Packet {
     ray.time[lane] = 0;
     ray.mask[lane] = 0xffffffffu;
     ray.flags[lane] = 0;
+    ray.id[lane] = static_cast<uint32_t>(lane);
     rays_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     rays_.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     pixels_[lane] = &pixel;
@@ -61,17 +63,52 @@ class SampleImage::Packet {
   void flush() {
     if (count_ == 0) return;
     for (int lane = 0; lane < kLanes; ++lane) valid_[lane] = lane < count_ ? -1 : 0;
-    rtcIntersect16(valid_, geometry_.scene.get(), &context_, &rays_);
-    for (int lane = 0; lane < count_; ++lane)
-      if (rays_.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) close(lane);
+    rtcIntersect16(valid_, geometry_.scene.get(), &context_.embree, &rays_);
+    for (int lane = 0; lane < count_; ++lane) {
+      if (rays_.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID)
+        layers_[lane].push_back(
+            {rays_.ray.tfar[lane], rays_.hit.primID[lane], rays_.hit.u[lane], rays_.hit.v[lane], 1});
+      if (!layers_[lane].empty()) close(lane);
+      layers_[lane].clear();
+    }
     count_ = 0;
   }
 
  private:
+  struct Layer {
+    float distance;
+    uint32_t triangle;
+    float u, v, opacity;
+    bool operator<(const Layer& other) const {
+      return distance != other.distance ? distance < other.distance : triangle < other.triangle;
+    }
+  };
+
+  // Transparent surfaces are noted and passed.
+  bool accepts(uint32_t lane, uint32_t triangle, float u, float v, float distance) override {
+    const RTCRay16& ray = rays_.ray;
+    const float opacity =
+        opacityAt(geometry_.triangles, triangle, u, v,
+                  glm::dvec3(double{ray.dir_x[lane]}, double{ray.dir_y[lane]}, double{ray.dir_z[lane]}));
+    if (opacity >= 1) return true;
+    if (opacity > 0) layers_[lane].push_back({distance, triangle, u, v, opacity});
+    return false;
+  }
+
   void close(int lane) {
+    std::vector<Layer>& layers = layers_[lane];
+    std::sort(layers.begin(), layers.end());
+    // Embree may ask about a triangle more than once.
+    const auto isSame = [](const Layer& a, const Layer& b) { return a.triangle == b.triangle; };
+    layers.erase(std::unique(layers.begin(), layers.end(), isSame), layers.end());
     Pixel& pixel = *pixels_[lane];
     pixel.open &= ~(uint64_t{1} << samples_[lane]);
-    pixel.sum += shadeHit(geometry_.triangles, rays_.hit.primID[lane], rays_.hit.u[lane], rays_.hit.v[lane], light_);
+    float through = 1;
+    for (const Layer& layer : layers) {
+      pixel.sum += through * layer.opacity * shadeHit(geometry_.triangles, layer.triangle, layer.u, layer.v, light_);
+      through *= 1 - layer.opacity;
+    }
+    pixel.through += through;
   }
 
   const TracedGeometry& geometry_;
@@ -80,7 +117,8 @@ class SampleImage::Packet {
   const glm::dvec3 eye_;  // local
   const int perAxis_;
   const glm::vec3 light_;
-  RTCIntersectContext context_;
+  TraceContext context_;
+  std::vector<Layer> layers_[kLanes];  // met by each ray
   RTCRayHit16 rays_{};
   alignas(64) int valid_[kLanes];
   Pixel* pixels_[kLanes];
@@ -93,7 +131,7 @@ SampleImage::SampleImage(const ReferenceView& view, int perAxis, glm::vec3 light
   FARCELL_CHECK(perAxis >= 1 && perAxis <= 8);
   const int samples = perAxis * perAxis;
   const uint64_t all = samples == 64 ? ~uint64_t{0} : (uint64_t{1} << samples) - 1;
-  pixels_.assign(static_cast<size_t>(view.width) * static_cast<size_t>(view.height), Pixel{all, glm::vec3(0)});
+  pixels_.assign(static_cast<size_t>(view.width) * static_cast<size_t>(view.height), Pixel{all, glm::vec3(0), 0});
 }
 
 bool SampleImage::unresolved(const ScreenBounds& bounds) const {
@@ -136,8 +174,8 @@ ReferenceImage SampleImage::finish() const {
   for (const Pixel& pixel : pixels_) {
     const glm::vec3 mean = pixel.sum * (255.0f / static_cast<float>(samples));
     for (const float value : {mean.x, mean.y, mean.z}) image.rgb.push_back(value);
-    const int hits = samples - std::popcount(pixel.open);
-    image.coverage.push_back(static_cast<float>(hits) / static_cast<float>(samples));
+    const auto hits = static_cast<float>(samples - std::popcount(pixel.open));
+    image.coverage.push_back((hits - pixel.through) / static_cast<float>(samples));
   }
   return image;
 }

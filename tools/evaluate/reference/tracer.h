@@ -20,7 +20,8 @@ class SampleImage {
   // Whether any sample of the rectangle is still without a surface.
   bool unresolved(const ScreenBounds& bounds) const;
 
-  // Traces the open samples through each geometry in turn; a sample that hits one is closed. Geometries come front to
+  // Traces the open samples through each geometry in turn; a sample that hits one is closed. Transparent
+  // surfaces along a ray are blended in their order: exact, however few the samples. Geometries come front to
   // back, and none may lie both before and behind another along any ray. Same result for any number of threads.
   void trace(std::span<const TracedGeometry> geometries, int threads);
 
@@ -30,6 +31,7 @@ class SampleImage {
   struct Pixel {
     uint64_t open = 0;  // bit s: sample s has hit nothing yet
     glm::vec3 sum{0};   // of lit colours, [0, 1] each
+    float through = 0;  // sum over closed samples of what passed all their surfaces
   };
   class Packet;
   void traceRows(const TracedGeometry& geometry, const ScreenBounds& bounds, int rowBegin, int rowEnd);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec3.hpp>
 
 #include "cache/base/interrupt.h"
 
@@ -26,24 +27,32 @@ Result<WholeTextures> WholeTextures::read(std::span<const TextureSource> sources
   for (const TextureSource& source : sources) {
     FARCELL_TRY(checkInterrupt());
     Result<TextureImage> image = readTextureImage(source);
-    whole.textures_.push_back({image ? std::move(*image) : TextureImage{}, source.wrapU, source.wrapV});
+    Texture texture{image ? std::move(*image) : TextureImage{}, source.wrapU, source.wrapV, source.surface};
+    if (!image) texture.surface.alpha = AlphaMode::opaque;
+    whole.textures_.push_back(std::move(texture));
   }
   return whole;
 }
 
-glm::vec3 WholeTextures::colourAt(uint32_t index, glm::vec2 at) const {
-  const auto& [image, wrapU, wrapV] = textures_[index];
-  if (image.pixels.empty() || !std::isfinite(at.x) || !std::isfinite(at.y)) return glm::vec3(1);
+glm::vec4 WholeTextures::colourAt(uint32_t index, glm::vec2 at) const {
+  const auto& [image, wrapU, wrapV, surface] = textures_[index];
+  if (image.pixels.empty() || !std::isfinite(at.x) || !std::isfinite(at.y)) return glm::vec4(1);
   const double x = double{at.x} * image.width - 0.5, y = (1 - double{at.y}) * image.height - 0.5;
   glm::dvec3 sum(0);
+  double alpha = 0;
   for (const double row : {std::floor(y), std::floor(y) + 1}) {
     for (const double column : {std::floor(x), std::floor(x) + 1}) {
       const auto pixel = static_cast<size_t>(pixelWithin(row, image.height, wrapV)) * static_cast<size_t>(image.width) +
                          static_cast<size_t>(pixelWithin(column, image.width, wrapU));
-      sum += (1 - std::abs(x - column)) * (1 - std::abs(y - row)) * channels(image.pixels[pixel]);
+      const double weight = (1 - std::abs(x - column)) * (1 - std::abs(y - row)) * (image.pixels[pixel] >> 24) / 255.0;
+      sum += weight * channels(image.pixels[pixel]);
+      alpha += weight;
     }
   }
-  return glm::vec3(sum / 255.0);
+  if (surface.alpha == AlphaMode::opaque) return glm::vec4(glm::vec3(sum / 255.0), 1);
+  const bool isHole = alpha == 0 || (surface.alpha == AlphaMode::mask && alpha < double{surface.cutoff});
+  if (isHole) return glm::vec4(0);
+  return glm::vec4(glm::vec3(sum / (255.0 * alpha)), surface.alpha == AlphaMode::mask ? 1 : static_cast<float>(alpha));
 }
 
 }  // namespace farcell

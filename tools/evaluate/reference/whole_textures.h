@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,13 +23,17 @@ class WholeTextures {
   void add(TextureImage image) { textures_.push_back({std::move(image), TextureWrap::clamp, TextureWrap::clamp}); }
 
   bool empty() const { return textures_.empty(); }
-  // Between the four nearest pixels; R, G, B in [0, 1]. Any thread.
-  glm::vec3 colourAt(uint32_t texture, glm::vec2 at) const;
+  // Between the four nearest pixels: R, G, B of what is surface, and how much of what is seen there it makes: for a
+  // mask 0 or 1. All in [0, 1]. Any thread.
+  glm::vec4 colourAt(uint32_t texture, glm::vec2 at) const;
+  // Opaque when the image could not be read.
+  const SurfaceKind& surface(uint32_t texture) const { return textures_[texture].surface; }
 
  private:
   struct Texture {
     TextureImage image;  // empty: white
     TextureWrap wrapU, wrapV;
+    SurfaceKind surface;
   };
   std::vector<Texture> textures_;
 };

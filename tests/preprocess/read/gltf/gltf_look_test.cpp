@@ -124,11 +124,57 @@ TEST(GltfLook, ATextureTransformScalesTurnsAndMovesAndMayNameAnotherSet) {
   expectCoordinates(readGlb(writer), {{{0.5, 0.75}, {0.5, 2.75}, {3.5, 0.75}}}, 1e-6);
 }
 
+TEST(GltfLook, AlphaAndSidesAreAsTheMaterialSays) {
+  const TempDirectory directory;
+  const auto sourceOf = [&](const json& changes) {
+    GltfWriter writer = textured({0, 0, 1, 0, 0, 1});
+    writer.root["materials"][0].merge_patch(changes);
+    const auto reader = openMesh(directory.write("model.glb", writer.glb()));
+    EXPECT_TRUE(reader) << reader.error().message;
+    return (*reader)->textures()[0];
+  };
+  const json transparent = {{"baseColorFactor", {1, 1, 1, 0.25}}};
+  TextureSource found = sourceOf({{"pbrMetallicRoughness", transparent}});
+  EXPECT_EQ(found.surface, (SurfaceKind{.doubleSided = false}));
+  EXPECT_EQ(found.opacity, 1) << "opaque materials have no alpha";
+  found = sourceOf({{"pbrMetallicRoughness", transparent}, {"alphaMode", "BLEND"}, {"doubleSided", true}});
+  EXPECT_EQ(found.surface, (SurfaceKind{.alpha = AlphaMode::blend}));
+  EXPECT_EQ(found.opacity, 0.25f);
+  EXPECT_EQ(sourceOf({{"alphaMode", "MASK"}}).surface.cutoff, 0.5f);
+  EXPECT_EQ(sourceOf({{"alphaMode", "MASK"}, {"alphaCutoff", 0.75}}).surface.cutoff, 0.75f);
+  EXPECT_EQ(sourceOf({{"alphaMode", "MASK"}, {"alphaCutoff", -1e300}}).surface.cutoff, 0);
+  EXPECT_EQ(sourceOf({{"alphaMode", "MASK"}, {"alphaCutoff", 1e300}}).surface.cutoff, 2);
+  const json beyond = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, -7}}}}, {"alphaMode", "BLEND"}};
+  EXPECT_EQ(sourceOf(beyond).opacity, 0);
+  GltfWriter writer = textured({0, 0, 1, 0, 0, 1});
+  writer.root["materials"][0]["alphaMode"] = "SOMETIMES";
+  const auto reader = openMesh(directory.write("model.glb", writer.glb()));
+  ASSERT_FALSE(reader);
+  EXPECT_NE(reader.error().message.find("SOMETIMES"), std::string::npos) << reader.error().message;
+}
+
+TEST(GltfLook, WithoutAnImageAMaterialIsATextureWhereItIsNotSeenByAll) {
+  const TempDirectory directory;
+  GltfWriter writer = textured({0, 0, 1, 0, 0, 1});
+  writer.root["materials"][0] = {{"alphaMode", "BLEND"},
+                                 {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 0.5}}}}};
+  const auto reader = openMesh(directory.write("model.glb", writer.glb()));
+  ASSERT_TRUE(reader) << reader.error().message;
+  ASSERT_EQ((*reader)->textures().size(), 1u);
+  EXPECT_EQ((*reader)->textures()[0].surface,
+            (SurfaceKind{.hasImage = false, .doubleSided = false, .alpha = AlphaMode::blend}));
+  EXPECT_EQ((*reader)->textures()[0].opacity, 0.5f);
+  MeshCounts counts;
+  EXPECT_EQ(collect(**reader, counts).value().at(0).texture, 0u);
+}
+
 TEST(GltfLook, ATextureWithoutCoordinatesOrImageIsNone) {
   GltfWriter writer = textured({0, 0, 1, 0, 0, 1});
+  writer.root["materials"][0]["doubleSided"] = true;
   writer.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   EXPECT_EQ(readGlb(writer).triangles.at(0).texture, kNoTexture);
   writer = textured({0, 0, 1, 0, 0, 1});
+  writer.root["materials"][0]["doubleSided"] = true;
   writer.root["textures"][0].erase("source");
   EXPECT_EQ(readGlb(writer).triangles.at(0).texture, kNoTexture);
 }

@@ -59,6 +59,41 @@ TEST(ObjTextures, KdMultipliesTheTexture) {
   EXPECT_EQ(mesh.triangles[0].texture, 0u);
 }
 
+TEST(ObjTextures, OpacityMakesMaterialsBlendFromBothSides) {
+  const TempDirectory directory;
+  directory.write("wall.png", "not looked at");
+  directory.write("holes.png", "neither");
+  struct Case {
+    std::string material;
+    AlphaMode alpha;
+    float opacity;
+    bool hasImage;
+    std::string opacityFile;
+  };
+  const std::vector<Case> cases = {{"map_Kd wall.png", AlphaMode::opaque, 1, true, ""},
+                                   {"map_Kd wall.png\nd 0.25", AlphaMode::blend, 0.25f, true, ""},
+                                   {"map_Kd wall.png\nTr 0.25", AlphaMode::blend, 0.75f, true, ""},
+                                   {"map_Kd wall.png\nd nan\nTr x", AlphaMode::opaque, 1, true, ""},
+                                   {"map_Kd wall.png\nd -3", AlphaMode::blend, 0, true, ""},
+                                   {"map_Kd wall.png\nmap_d wall.png", AlphaMode::blend, 1, true, ""},
+                                   {"map_Kd wall.png\nmap_d holes.png", AlphaMode::blend, 1, true, "holes.png"},
+                                   {"map_d holes.png", AlphaMode::blend, 1, true, "holes.png"},
+                                   {"map_Kd wall.png\nmap_d missing.png", AlphaMode::opaque, 1, true, ""},
+                                   {"Kd 1 0 0\nd -halo 0.5", AlphaMode::blend, 0.5f, false, ""}};
+  for (const Case& expected : cases) {
+    directory.write("square.mtl", "newmtl wall\n" + expected.material + "\n");
+    const auto reader = openMesh(directory.write("square.obj", kSquare)).value();
+    MeshCounts counts;
+    const uint32_t index = collect(*reader, counts).value().at(0).texture;
+    ASSERT_LT(index, reader->textures().size()) << expected.material;
+    const TextureSource& found = reader->textures()[index];
+    EXPECT_EQ(found.surface, (SurfaceKind{.hasImage = expected.hasImage, .alpha = expected.alpha}))
+        << expected.material;
+    EXPECT_EQ(found.opacity, expected.opacity) << expected.material;
+    EXPECT_EQ(found.opacityFile.filename(), expected.opacityFile) << expected.material;
+  }
+}
+
 TEST(ObjTextures, AFaceWithoutUsableCoordinatesHasNoTexture) {
   const TempDirectory directory;
   directory.write("square.mtl", "newmtl wall\nKd 1 0 0\nmap_Kd wall.png\nnewmtl plain\nKd 0 1 0\n");

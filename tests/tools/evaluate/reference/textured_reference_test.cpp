@@ -70,11 +70,72 @@ TEST(TexturedReference, ShowsTheImageItselfNotThePacksVertexColours) {
   EXPECT_GT(looked, 1000);
 }
 
+// Squares of size 2 above each other, seen from straight above or below: the picture's middle.
+struct Middle {
+  glm::vec3 rgb;
+  float coverage;
+};
+Middle middleOf(const std::string& materials, const std::string& faces, double eyeZ, const std::string& image) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path() / "holes.png", std::ios::binary) << image;
+  std::ofstream(directory.path() / "squares.mtl") << materials;
+  std::ofstream out(directory.path() / "squares.obj");
+  out << "mtllib squares.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  for (const double z : {0.0, 0.1, 0.2})
+    out << "v -1 -1 " << z << "\nv 1 -1 " << z << "\nv 1 1 " << z << "\nv -1 1 " << z << "\n";
+  out << faces;
+  out.close();
+  const std::filesystem::path mesh = directory.path() / "squares.obj";
+  BuildOptions options;
+  options.settings.up = UpAxis::z;
+  Progress silent(false);
+  const auto built = buildPack({&mesh, 1}, directory.path() / "squares.far", options, silent);
+  EXPECT_TRUE(built) << built.error().message;
+  const auto reference = MeshReference::load({&mesh, 1}, built->directory, [](uint64_t) {});
+  EXPECT_TRUE(reference) << reference.error().message;
+  Camera camera;
+  camera.position = {0, 0, eyeZ};
+  camera.target = {0, 0, 0.1};
+  camera.up = {0, 1, 0};
+  camera.fovYRad = 0.3;
+  const ReferenceImage traced = reference->trace(camera, {16, 16, 64, 1}).value();
+  const size_t at = 8 * 16 + 8;
+  return {glm::vec3(traced.rgb[3 * at], traced.rgb[3 * at + 1], traced.rgb[3 * at + 2]), traced.coverage[at]};
+}
+
+TEST(TransparentReference, LayersAreBlendedInTheOrderOfTheRay) {
+  const std::string materials = "newmtl a\nKd 1 0 0\nd .25\nnewmtl b\nKd 0 1 0\nd .5\nnewmtl c\nKd 0 0 1\n";
+  const std::string two = "usemtl a\nf 5 6 7 8\nusemtl b\nf 9 10 11 12\n";
+  const float light = 255 * shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(UpAxis::z));
+  const double a = 64 / 255.0, b = 128 / 255.0;  // opacities as they are kept
+  const auto expectRgb = [&](const Middle& found, glm::dvec3 expected, double coverage) {
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(found.rgb[channel], light * expected[channel], 0.1) << channel;
+    EXPECT_NEAR(found.coverage, coverage, 1e-4);
+  };
+  expectRgb(middleOf(materials, two, 5, ""), {(1 - b) * a, b, 0}, 1 - (1 - a) * (1 - b));
+  expectRgb(middleOf(materials, two, -5, ""), {a, (1 - a) * b, 0}, 1 - (1 - a) * (1 - b));
+  const std::string three = two + "usemtl c\nf 1 2 3 4\n";
+  expectRgb(middleOf(materials, three, 5, ""), {(1 - b) * a, b, (1 - a) * (1 - b)}, 1);
+  expectRgb(middleOf(materials, three, -5, ""), {0, 0, 1}, 1);
+}
+
+TEST(TransparentReference, AMapOfOpacityMakesHoles) {
+  const auto middleIs = [](int value) {
+    return encodeImage("png", {64, 64, 1, 8}, [=](int x, int y, int) {
+      return std::abs(x - 32) < 16 && std::abs(y - 32) < 16 ? value : 255 - value;
+    });
+  };
+  const std::string materials = "newmtl a\nKd 1 1 1\nmap_d holes.png\n", face = "usemtl a\nf 5/1 6/2 7/3 8/4\n";
+  EXPECT_EQ(middleOf(materials, face, 5, middleIs(0)).coverage, 0);
+  EXPECT_EQ(middleOf(materials, face, 5, middleIs(255)).coverage, 1);
+}
+
 TEST(TexturedReference, AnImageThatCannotBeReadIsWhite) {
   TextureSource source;
   source.file = "/no/such/image.png";
   const WholeTextures textures = WholeTextures::read({&source, 1}).value();
-  EXPECT_EQ(textures.colourAt(0, glm::vec2(.3f, .4f)), glm::vec3(1));
+  EXPECT_EQ(textures.colourAt(0, glm::vec2(.3f, .4f)), glm::vec4(1));
 }
 
 TEST(TexturedReference, WrapModesRepeatMirrorAndClamp) {
