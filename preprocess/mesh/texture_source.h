@@ -37,10 +37,10 @@ struct TextureSource {
   std::shared_ptr<const std::vector<std::byte>> embedded;  // decoded from text (a data URI); null: see `file`
   TextureWrap wrapU = TextureWrap::repeat;
   TextureWrap wrapV = TextureWrap::repeat;
-  SurfaceKind surface;
+  SurfaceKind surface{};
   // Another image, of the same wraps and of any size, whose alpha - or where it has none, whose brightness - is the
   // alpha instead: what MTL calls map_d. Then an empty `file` is white. Empty: there is none.
-  std::filesystem::path opacityFile;
+  std::filesystem::path opacityFile{};
   float opacity = 1;  // what the image's alpha is multiplied with, in [0, 1]
 };
 
