@@ -22,8 +22,8 @@ class WaveSampler final : public TextureSampler {
     const auto wave = [](double x) { return static_cast<float>(0.5 + 0.4 * std::cos(2 * M_PI * x)); };
     return glm::vec3(wave(at.x), wave(at.y), wave(at.x + at.y + 0.1 * texture));
   }
-  glm::vec3 sample(const TextureLookup& lookup) override {
-    return colourAt(glm::dvec2(lookup.at), wrap_, lookup.texture);
+  glm::vec4 sample(const TextureLookup& lookup) override {
+    return {colourAt(glm::dvec2(lookup.at), wrap_, lookup.texture), 1};
   }
   TextureShape shape(uint32_t texture) const override {
     if (texture == 7) return {};  // could not be read
@@ -63,7 +63,7 @@ void expectSourceColours(const std::vector<TriangleTexture>& triangles, const At
         source += weights[k] * glm::dvec2(triangles[i].coordinates[static_cast<size_t>(k)]);
         at += weights[k] * glm::dvec2(corner(static_cast<size_t>(k)));
       }
-      const glm::vec3 found = sampler.sample({0, glm::vec2(at), {}, {}});
+      const glm::vec3 found(sampler.sample({0, glm::vec2(at), {}, {}}));
       const bool textured = triangles[i].texture != kNoTexture && triangles[i].texture != 7;
       const glm::vec3 wanted = textured ? WaveSampler::colourAt(source, wrap, triangles[i].texture) : glm::vec3(1);
       for (int channel = 0; channel < 3; ++channel)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "cache/base/interrupt.h"
@@ -33,13 +34,21 @@ void append(const GeometryPage& page, float steps, LocalTriangles& local) {
   local.normals.insert(local.normals.end(), page.normals.begin(), page.normals.end());
 }
 
+// 0xAABBGGRR, of a texel premultiplied by alpha.
+uint32_t straight(const uint8_t* texel, uint32_t alpha) {
+  uint32_t pixel = alpha << 24;
+  for (int channel = 0; channel < 3; ++channel)
+    pixel |= std::min(255u, (255u * texel[channel] + alpha / 2) / std::max(1u, alpha)) << 8 * channel;
+  return pixel;
+}
+
 // The finest level, as an image of the model's: its top row first.
 TextureImage imageOf(const TexturePage& atlas) {
   TextureImage image{static_cast<int>(atlas.width), static_cast<int>(atlas.height), {}};
   for (uint32_t row = atlas.height; row-- > 0;) {
     const uint8_t* texel = atlas.levels[0].data() + size_t{row} * atlas.width * atlas.channels;
     for (uint32_t x = 0; x < atlas.width; ++x, texel += atlas.channels)
-      image.pixels.push_back(texel[0] | uint32_t{texel[1]} << 8 | uint32_t{texel[2]} << 16);
+      image.pixels.push_back(straight(texel, atlas.channels == 4 ? texel[3] : 255));
   }
   return image;
 }
@@ -54,11 +63,11 @@ Result<> appendAtlas(const PackFile& pack, uint32_t cell, uint32_t part, const G
     local.coordinates.push_back(glm::vec2(packed & 0xffff, packed >> 16) / 65535.0f);
   }
   if (!there) {
-    local.textures.add({});
+    local.textures.add({}, AlphaMode::opaque);
     return {};
   }
   FARCELL_ASSIGN(const TexturePage atlas, pack.readAtlas(cell, part));
-  local.textures.add(imageOf(atlas));
+  local.textures.add(imageOf(atlas), atlas.channels == 4 ? AlphaMode::blend : AlphaMode::opaque);
   return {};
 }
 

@@ -29,7 +29,7 @@ struct ReferenceSettings {
   int height = 720;
   int samples = kMaxReferenceSamples;  // per pixel: a square number up to 64
   int threads = 0;                     // 0: all. The picture does not depend on it
-  Light light;
+  Light light{};
 };
 
 // invalidArgument unless `samples` is a square number in [1, 64].

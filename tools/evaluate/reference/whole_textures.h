@@ -20,7 +20,9 @@ class WholeTextures {
   static Result<WholeTextures> read(std::span<const TextureSource> sources);
 
   // Adds an image that is held beyond its edges.
-  void add(TextureImage image) { textures_.push_back({std::move(image), TextureWrap::clamp, TextureWrap::clamp}); }
+  void add(TextureImage image, AlphaMode alpha) {
+    textures_.push_back({std::move(image), TextureWrap::clamp, TextureWrap::clamp, {.alpha = alpha}});
+  }
 
   bool empty() const { return textures_.empty(); }
   // Between the four nearest pixels: R, G, B of what is surface, and how much of what is seen there it makes: for a

@@ -203,7 +203,8 @@ TEST_F(ExtractTest, TheProgramSaysWhatItWroteAndHowItFailed) {
   const auto bytes = readTextFile(pack, 1 << 26);
   ASSERT_TRUE(bytes);
   std::string broken = *bytes;
-  for (const PageRecord& page : PackFile::open(pack)->directory().pages)
+  const auto opened = PackFile::open(pack);
+  for (const PageRecord& page : opened->directory().pages)
     broken[page.offsetBytes] = static_cast<char>(broken[page.offsetBytes] ^ 1);
   ASSERT_TRUE(writeTextFile(directory_ / "broken.far", broken));
   EXPECT_EQ(run((directory_ / "broken.far").string() + out), 1);
