@@ -180,7 +180,7 @@ TEST_F(ExtractTest, NormalsBecomeColoursOfTheirAxes) {
                  .height = 1,
                  .rgba = std::vector<uint8_t>(8, 255),
                  .depth = {1, 1},
-                 .normal = {128, 128, 255, 128}};
+                 .normal = {128, 128, 255, 255, 128, 255}};  // octahedral x, y, and length
   const Picture picture = viewPicture(view, ViewChannel::normal);
   const std::array<int, 8> expected = {128, 128, 255, 255, 255, 128, 128, 255};
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(picture.pixels[i], expected[i], 2) << i;
