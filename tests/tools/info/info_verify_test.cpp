@@ -66,7 +66,7 @@ TEST(FarcellInfo, PrintsTheContractAndTheModelOfAPack) {
   EXPECT_EQ(json["levels"], Json::parse(R"([
     {"level":0,"leaf":0,"inner":1,"triangles":0,"meshTriangles":0,"geometricErrorMetres":0.0},
     {"level":1,"leaf":2,"inner":0,"triangles":2,"meshTriangles":0,"geometricErrorMetres":0.0}])"));
-  EXPECT_EQ(json["pages"], Json::parse(R"({"geometry":2,"views":3})"));
+  EXPECT_EQ(json["pages"], Json::parse(R"({"geometry":2,"textures":2,"views":3})"));
 }
 
 TEST(FarcellInfo, PrintsTextForPeopleWithoutControlCharacters) {
@@ -115,7 +115,7 @@ TEST(FarcellVerify, SaysThatAWholePackIsValid) {
   samples::write(samples::fullPack(), file.path());
   const Outcome text = run("farcell-verify", file.path().string());
   EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_EQ(text.out, fmt::format("{}: valid, 5 pages, {} bytes\n", file.path().string(),
+  EXPECT_EQ(text.out, fmt::format("{}: valid, 7 pages, {} bytes\n", file.path().string(),
                                   std::filesystem::file_size(file.path())));
   const Outcome json = run("farcell-verify", "--json " + file.path().string());
   EXPECT_EQ(json.code, 0);

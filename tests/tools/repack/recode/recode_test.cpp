@@ -58,6 +58,8 @@ void expectSameContent(const PackFile& a, const PackFile& b) {
     EXPECT_LE(after.storedBytes, before.storedBytes);
     if (before.kind == PageKind::geometry) {
       EXPECT_EQ(a.readGeometry(page).value(), b.readGeometry(page).value());
+    } else if (before.kind == PageKind::texture) {
+      EXPECT_EQ(a.readTexture(page).value(), b.readTexture(page).value());
     } else {
       EXPECT_EQ(a.readViews(page).value(), b.readViews(page).value());
     }
