@@ -15,7 +15,7 @@
 namespace farcell::lod {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
+constexpr uint32_t kNoImage = UINT32_MAX;
 
 glm::dvec3 unpacked(uint32_t colour) { return {colour & 255, colour >> 8 & 255, colour >> 16 & 255}; }
 
@@ -46,7 +46,7 @@ class ShownColours {
     for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const uint32_t image = imageOf(mesh_.triangles[t]);
       const double area = glm::length(cross(mesh_.places, mesh_.triangles[t]));
-      if (image != kNone) sums[image] += area * glm::dvec4(colour(t), 1);
+      if (image != kNoImage) sums[image] += area * glm::dvec4(colour(t), 1);
     }
     std::vector<uint32_t> colours;
     colours.reserve(sums.size());
@@ -77,7 +77,7 @@ class ShownColours {
     const std::array<uint32_t, 3> moved = {reduction_.targets[t[0]], reduction_.targets[t[1]],
                                            reduction_.targets[t[2]]};
     const glm::dvec3 point = middle(mesh_.places, t);
-    uint32_t best = kNone;
+    uint32_t best = kNoImage;
     double least = std::numeric_limits<double>::infinity();
     for (const uint32_t place : moved)
       for (const RingEdge& edge : rings_.of(place)) {

@@ -10,7 +10,7 @@ namespace {
 
 using Transparent = TextureTest;
 
-TextureLookup square(glm::vec2 at, float side) { return {0, at, glm::vec2(side, 0), glm::vec2(0, side)}; }
+TextureLookup squareAt(glm::vec2 at, float side) { return {0, at, glm::vec2(side, 0), glm::vec2(0, side)}; }
 
 std::string pngOf(int edge, int channels, const std::function<int(int x, int y, int channel)>& value, int bits = 8) {
   return encodeImage("png", {edge, edge, channels, bits}, value);
@@ -44,12 +44,12 @@ TEST_F(Transparent, OpaqueSourcesIgnoreAlphaAndJpegHasNone) {
   image.opacity = 0.25f;
   TextureSampler& textures = sampler(image);
   EXPECT_TRUE(textures.surface(0).whole());
-  const glm::vec4 found = textures.sample(square({0.5f, 0.5f}, 1));
+  const glm::vec4 found = textures.sample(squareAt({0.5f, 0.5f}, 1));
   expectNear(found, glm::vec3(0.5f, 0.5f, 0), 0.01f);
   EXPECT_EQ(found.w, 1);
   TextureSource jpeg = source("image.jpg", encodeImage("jpeg", {16, 16, 3, 8}, [](int, int, int) { return 90; }));
   jpeg.surface.alpha = AlphaMode::blend;
-  EXPECT_EQ(sampler(jpeg).sample(square({0.5f, 0.5f}, 0)).w, 1);
+  EXPECT_EQ(sampler(jpeg).sample(squareAt({0.5f, 0.5f}, 0)).w, 1);
 }
 
 TEST_F(Transparent, WhatIsTransparentColoursNothing) {
@@ -63,7 +63,7 @@ TEST_F(Transparent, WhatIsTransparentColoursNothing) {
     constexpr int kLooks = 3000;
     for (int i = 0; i < kLooks; ++i) {
       const float side = 0.25f * anywhere(random) * anywhere(random);
-      const glm::vec4 found = textures.sample(square({anywhere(random), anywhere(random)}, side));
+      const glm::vec4 found = textures.sample(squareAt({anywhere(random), anywhere(random)}, side));
       alpha += found.w / kLooks;
       if (found.w > 0) {
         expectNear(found, glm::vec3(0, 1, 0), 1e-3f);
@@ -84,10 +84,10 @@ TEST_F(Transparent, AMaskIsAllOrNothingUntilItIsMadeSmaller) {
   // Alpha (16 u - .5) / 15 between the middles of the outer pixels.
   const float edge = (0.3f * 15 + 0.5f) / 16;
   for (float u = 0.01f; u < 1; u += 0.013f)
-    EXPECT_EQ(textures.sample(square({u, 0.5f}, 1 / 16.0f)).w, u < edge ? 0 : 1) << u;
+    EXPECT_EQ(textures.sample(squareAt({u, 0.5f}, 1 / 16.0f)).w, u < edge ? 0 : 1) << u;
   // Of the whole image what lies beyond the cutoff, not whether the mean does: 11 of 16 columns.
-  EXPECT_NEAR(textures.sample(square({0.5f, 0.5f}, 16)).w, 0, 1);
-  EXPECT_NEAR(textures.sample(square({0.5f, 0.5f}, 0.5f)).w, 11 / 16.0, 0.08);
+  EXPECT_NEAR(textures.sample(squareAt({0.5f, 0.5f}, 16)).w, 0, 1);
+  EXPECT_NEAR(textures.sample(squareAt({0.5f, 0.5f}, 0.5f)).w, 11 / 16.0, 0.08);
 }
 
 TEST_F(Transparent, CutoffsMayLieAnywhere) {
@@ -95,7 +95,7 @@ TEST_F(Transparent, CutoffsMayLieAnywhere) {
   image.surface.alpha = AlphaMode::mask;
   const auto alphaAt = [&](float cutoff, glm::vec2 at, float side) {
     image.surface.cutoff = cutoff;
-    return sampler(image).sample(square(at, side)).w;
+    return sampler(image).sample(squareAt(at, side)).w;
   };
   for (const float side : {0.0f, 0.1f}) {
     EXPECT_EQ(alphaAt(0, {0.4f, 0.4f}, side), 1);
@@ -107,12 +107,12 @@ TEST_F(Transparent, OpacityMultipliesAlphaAndNeedsNoImage) {
   TextureSource image = source("image.png", pngOf(4, 2, [](int, int, int) { return 200; }));
   image.surface.alpha = AlphaMode::blend;
   image.opacity = 0.5f;
-  EXPECT_NEAR(sampler(image).sample(square({0.5f, 0.5f}, 0)).w, 100 / 255.0, 1e-5);
+  EXPECT_NEAR(sampler(image).sample(squareAt({0.5f, 0.5f}, 0)).w, 100 / 255.0, 1e-5);
   TextureSource plain;
   plain.surface = {.hasImage = false, .doubleSided = false, .alpha = AlphaMode::blend};
   plain.opacity = 0.2f;
   TextureSampler& white = sampler(plain);
-  const glm::vec4 found = white.sample(square({17, -3}, 100));
+  const glm::vec4 found = white.sample(squareAt({17, -3}, 100));
   expectNear(found, glm::vec3(1), 1e-6f);
   EXPECT_NEAR(found.w, 51 / 255.0, 1e-6);
   EXPECT_EQ(white.surface(0), plain.surface);
@@ -123,7 +123,7 @@ TEST_F(Transparent, ABrokenImageIsOpaqueAndKeepsItsSides) {
   bad.surface = {.doubleSided = false, .alpha = AlphaMode::mask};
   Textures textures = open({bad});
   EXPECT_EQ(textures.leftOut().size(), 1u);
-  EXPECT_EQ(textures.sampler()->sample(square({0.5f, 0.5f}, 0)), glm::vec4(1));
+  EXPECT_EQ(textures.sampler()->sample(squareAt({0.5f, 0.5f}, 0)), glm::vec4(1));
   EXPECT_EQ(textures.sampler()->surface(0).alpha, AlphaMode::opaque);
   EXPECT_FALSE(textures.sampler()->surface(0).doubleSided);
 }

@@ -9,15 +9,14 @@
 namespace farcell {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(Light, aSunStandsWhereItsAnglesSayAndAHeadlightOnTheViewAxis) {
   BuildSettings settings;
   settings.up = UpAxis::y;
-  settings.sun = {kPi / 2, 0};
+  settings.sun = {std::numbers::pi / 2, 0};
   const Camera camera{"", {3, 4, 0}, {0, 0, 0}, {0, 0, 1}, 0.7};
   EXPECT_LT(glm::distance(lightDirection({}, settings, camera), glm::vec3(1, 0, 0)), 1e-6f);  // up y: from z towards x
-  EXPECT_LT(glm::distance(lightDirection({LightKind::sun, Sun{1, kPi / 2}}, settings, camera), glm::vec3(0, 1, 0)),
+  EXPECT_LT(glm::distance(lightDirection({LightKind::sun, Sun{1, std::numbers::pi / 2}}, settings, camera),
+                          glm::vec3(0, 1, 0)),
             1e-6f);
   EXPECT_LT(glm::distance(lightDirection({LightKind::headlight, {}}, settings, camera), glm::vec3(.6f, .8f, 0)), 1e-6f);
 }
@@ -40,8 +39,8 @@ TEST(Light, aMovedSunGoesAroundAndNotBeyondStraightAbove) {
   Light light{LightKind::headlight, Sun{3, 1.5}};
   light = movedSun(light, settings, 0.5, 0.5);
   EXPECT_EQ(light.kind, LightKind::sun);
-  EXPECT_NEAR(light.sun->azimuthRad, 3.5 - 2 * kPi, 1e-12);
-  EXPECT_EQ(light.sun->elevationRad, kPi / 2);
+  EXPECT_NEAR(light.sun->azimuthRad, 3.5 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(light.sun->elevationRad, std::numbers::pi / 2);
   EXPECT_TRUE(isSun(*movedSun(light, settings, 0, -10).sun));
   EXPECT_EQ(movedSun({}, settings, 0, 0).sun->elevationRad, settings.sun.elevationRad);
 }

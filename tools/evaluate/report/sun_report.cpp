@@ -36,7 +36,7 @@ std::vector<RatioSummary> ratiosOf(const std::vector<std::vector<RendererSummary
   return ratios;
 }
 
-constexpr const char* kColumns = "{:<24} {:>6} {:>8} {:>9} {:>10} {:>13}\n";
+constexpr const char* kSunColumns = "{:<24} {:>6} {:>8} {:>9} {:>10} {:>13}\n";
 
 }  // namespace
 
@@ -70,14 +70,14 @@ std::string sunsText(const std::vector<SunEntries>& suns) {
     all.insert(all.end(), under.entries.begin(), under.entries.end());
   }
   if (summaries.empty()) return "";
-  std::string text = fmt::format(fmt::runtime(kColumns), "renderer, other suns", "suns", "ratio", "best sun",
+  std::string text = fmt::format(fmt::runtime(kSunColumns), "renderer, other suns", "suns", "ratio", "best sun",
                                  "worst sun", "worst camera");
   const std::vector<RendererSummary> means = summarise(all);
   for (size_t i = 0; i < means.size(); ++i) {
     const std::vector<RatioSummary> ratios = ratiosOf(summaries, i);
     const auto of = [&](size_t at) { return ratios.empty() ? std::nullopt : ratios[at].ratioToFull1spp; };
     text +=
-        fmt::format(fmt::runtime(kColumns), means[i].renderer, ratios.size(),
+        fmt::format(fmt::runtime(kSunColumns), means[i].renderer, ratios.size(),
                     optionalText(means[i].all.ratioToFull1spp), optionalText(of(0)),
                     optionalText(of(std::max<size_t>(ratios.size(), 1) - 1)), optionalText(means[i].all.worstRatio));
   }

@@ -8,7 +8,7 @@
 namespace farcell {
 namespace {
 
-Entry entryOf(const std::string& camera, const std::string& renderer, double error, double ratio) {
+Entry entryUnder(const std::string& camera, const std::string& renderer, double error, double ratio) {
   Entry entry;
   entry.camera = camera;
   entry.renderer.name = renderer;
@@ -18,8 +18,8 @@ Entry entryOf(const std::string& camera, const std::string& renderer, double err
 }
 
 const std::vector<SunEntries> kSuns = {
-    {{std::numbers::pi / 2, 0.1}, {entryOf("a", "auto", 2, 0.2), entryOf("b", "auto", 8, 0.8)}},
-    {{0, std::numbers::pi / 6}, {entryOf("a", "auto", 1, 0.1), entryOf("b", "auto", 1, 0.1)}}};
+    {{std::numbers::pi / 2, 0.1}, {entryUnder("a", "auto", 2, 0.2), entryUnder("b", "auto", 8, 0.8)}},
+    {{0, std::numbers::pi / 6}, {entryUnder("a", "auto", 1, 0.1), entryUnder("b", "auto", 1, 0.1)}}};
 
 TEST(SunReport, saysOfEachSunWhereItStandsAndHowEachRendererDoes) {
   const auto json = sunsJson(kSuns);
