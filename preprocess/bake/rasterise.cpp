@@ -210,12 +210,15 @@ uint32_t kindOf(const SurfaceKind& surface) {
          (surface.hasImage ? kHasImage : 0);
 }
 
+// Lanes of the widest vector that any target has (SVE): this is compiled for one target, what reads them for all.
+constexpr size_t kMostLanes = 256 / sizeof(uint32_t);
+
 void findKinds(const CellSoup& chunk, const TextureSampler* textures, RasterScratch& scratch) {
   std::vector<uint32_t>& kinds = scratch.kinds;
   kinds.clear();
   scratch.tested = false;
   if (chunk.textures.empty()) return;
-  kinds.resize(chunk.size() + HWY_MAX_BYTES / sizeof(uint32_t));
+  kinds.resize(chunk.size() + kMostLanes);
   for (size_t i = 0; i < chunk.size(); ++i) {
     if (chunk.textures[i] != kNoTexture) kinds[i] = kindOf(textures->surface(chunk.textures[i]));
     scratch.tested |= (kinds[i] & kTested) != 0;
