@@ -18,7 +18,8 @@ struct TextureLookup {
   glm::vec2 alongX{0}, alongY{0};  // whole sides of the parallelogram; zero: a point
 };
 
-// Of its image; no size: it could not be read.
+// Of its image; no size: there is nothing to look at, it is opaque white everywhere (its image could not be read, or
+// it stands only for a side that is seen).
 struct TextureShape {
   int width = 0, height = 0;
   TextureWrap wrapU = TextureWrap::repeat, wrapV = TextureWrap::repeat;

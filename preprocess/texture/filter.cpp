@@ -141,7 +141,8 @@ glm::vec4 PyramidSampler::sample(const TextureLookup& lookup) {
 TextureShape PyramidSampler::shape(uint32_t texture) const {
   FARCELL_CHECK(texture < pyramids_.size());
   const Pyramid& pyramid = pyramids_[texture];
-  if (pyramid.levels.empty()) return {};
+  const bool plain = !pyramid.surface.hasImage && pyramid.surface.alpha == AlphaMode::opaque;
+  if (pyramid.levels.empty() || plain) return {};
   return {pyramid.levels[0].width, pyramid.levels[0].height, pyramid.wrapU, pyramid.wrapV};
 }
 

@@ -118,6 +118,15 @@ TEST_F(Transparent, OpacityMultipliesAlphaAndNeedsNoImage) {
   EXPECT_EQ(white.surface(0), plain.surface);
 }
 
+TEST_F(Transparent, WithoutImageAndAlphaThereIsNothingToLookAt) {
+  TextureSource oneSided;
+  oneSided.surface = {.hasImage = false, .doubleSided = false};
+  EXPECT_EQ(sampler(oneSided).shape(0).width, 0);
+  TextureSource glass = oneSided;
+  glass.surface.alpha = AlphaMode::blend;
+  EXPECT_EQ(sampler(glass).shape(0).width, 1);
+}
+
 TEST_F(Transparent, ABrokenImageIsOpaqueAndKeepsItsSides) {
   TextureSource bad = source("bad.png", "no image");
   bad.surface = {.doubleSided = false, .alpha = AlphaMode::mask};
