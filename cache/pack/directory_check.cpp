@@ -269,30 +269,22 @@ class Checker {
     if (page.cell >= directory_.cells.size())
       return wrongPage(i, fmt::format("a cell below {}", directory_.cells.size()), fmt::format("{}", page.cell));
     const CellRecord& cell = directory_.cells[page.cell];
-    if (page.kind == PageKind::geometry) {
-      if (i >= cell.firstGeometryPage && i - cell.firstGeometryPage < cell.geometryPageCount) return {};
-      return wrongPage(i,
-                       fmt::format("{} pages of geometry of cell {} from {}", cell.geometryPageCount, page.cell,
-                                   cell.firstGeometryPage),
-                       fmt::format("page {}", i));
-    }
-    if (page.kind == PageKind::texture) {
-      if (i >= cell.firstTexturePage && i - cell.firstTexturePage < cell.texturePageCount) return {};
-      return wrongPage(i,
-                       fmt::format("{} pages of textures of cell {} from {}", cell.texturePageCount, page.cell,
-                                   cell.firstTexturePage),
-                       fmt::format("page {}", i));
-    }
+    if (page.kind == PageKind::geometry) return among(i, "geometry", cell.firstGeometryPage, cell.geometryPageCount);
+    if (page.kind == PageKind::texture) return among(i, "textures", cell.firstTexturePage, cell.texturePageCount);
     if (page.kind != PageKind::views)
       return wrongPage(i, "kind 1, 2 or 3", fmt::format("{}", static_cast<uint32_t>(page.kind)));
-    if (i < cell.firstViewPage || i - cell.firstViewPage >= cell.viewPageCount)
-      return wrongPage(
-          i, fmt::format("{} pages of views of cell {} from {}", cell.viewPageCount, page.cell, cell.firstViewPage),
-          fmt::format("page {}", i));
+    FARCELL_TRY(among(i, "views", cell.firstViewPage, cell.viewPageCount));
     const bool rising = i == cell.firstViewPage || directory_.pages[i - 1].group < page.group;
     if (page.group >= groupCount || !rising)
       return wrongPage(i, fmt::format("a rising group below {}", groupCount), fmt::format("{}", page.group));
     return {};
+  }
+
+  // The pages that its cell names.
+  Result<> among(uint32_t i, const char* what, uint32_t first, uint32_t count) const {
+    if (i >= first && i - first < count) return {};
+    return wrongPage(i, fmt::format("{} pages of {} of cell {} from {}", count, what, directory_.pages[i].cell, first),
+                     fmt::format("page {}", i));
   }
 
   Result<> reportedBytes() const {

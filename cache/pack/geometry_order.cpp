@@ -52,7 +52,7 @@ std::vector<uint32_t> inNewOrder(std::span<const uint32_t> values, std::span<con
   };
   const std::vector<Entry> from = sorted(before), to = sorted(after);
   std::vector<uint32_t> result(values.size());
-  for (size_t i = 0; i < from.size() && !values.empty(); ++i) result[to[i].triangle] = values[from[i].triangle];
+  for (size_t i = 0; i < from.size(); ++i) result[to[i].triangle] = values[from[i].triangle];
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -27,6 +28,11 @@ struct GeometryPage {
   std::vector<uint32_t> shown{};
   bool operator==(const GeometryPage&) const = default;
 };
+
+// Of GeometryPage::coordinates, from (0, 0), the lowest corner of the atlas, to (1, 1).
+inline glm::vec2 unpackedCoordinates(uint32_t packed) {
+  return glm::vec2(static_cast<float>(packed & 0xffff), static_cast<float>(packed >> 16)) / 65535.0f;
+}
 
 // Consecutive levels of the atlas of a geometry page, an image that its triangles look at. Level 0 is the finest, each
 // next one has half its edges.

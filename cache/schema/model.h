@@ -85,7 +85,7 @@ inline constexpr std::array<uint8_t, 3> kDefaultAlbedo = {204, 200, 192};
 // Whether both angles are numbers, azimuth within a turn either way and elevation within a quarter of one.
 bool isSun(const Sun& sun);
 // Direction to the sun, unit, world axes.
-glm::vec3 sunDirection(UpAxis up, const Sun& sun = {});
+glm::vec3 sunDirection(UpAxis up, const Sun& sun);
 // Azimuth and elevation in degrees: "39.8056,41.8685".
 std::string sunText(const Sun& sun);
 // As people write them: "x", "y" or "z"; a length of mm, cm, m, km, in or ft. Nothing for other words.

@@ -66,8 +66,4 @@ SurfaceKind AtlasSampler::surface(uint32_t texture) const {
   return {.alpha = atlases_[texture].channels == 4 ? AlphaMode::blend : AlphaMode::opaque};
 }
 
-glm::vec2 unpackedCoordinates(uint32_t packed) {
-  return glm::vec2(static_cast<float>(packed & 0xffff), static_cast<float>(packed >> 16)) / 65535.0f;
-}
-
 }  // namespace farcell

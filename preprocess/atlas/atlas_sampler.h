@@ -27,7 +27,4 @@ class AtlasSampler final : public TextureSampler {
   std::optional<Error> none_;
 };
 
-// Of a corner, as GeometryPage has it.
-glm::vec2 unpackedCoordinates(uint32_t packed);
-
 }  // namespace farcell

@@ -6,10 +6,10 @@
 #include "cache/base/interrupt.h"
 #include "preprocess/atlas/atlas.h"
 #include "preprocess/atlas/atlas_sampler.h"
-#include "preprocess/bake/settle.h"
 #include "preprocess/build/bake_job.h"
 #include "preprocess/build/soup.h"
 #include "preprocess/encode/view_image.h"
+#include "preprocess/partition/grid_triangle.h"
 
 namespace farcell {
 namespace {
@@ -61,7 +61,7 @@ Result<CellSoup> meshSoup(const BuildContext& context, uint32_t cell, std::vecto
       if (atlas) atlases.push_back(*std::move(atlas));
     }
     const auto& [red, green, blue] = kDefaultAlbedo;
-    const uint32_t lit = bake::packedOctahedral(sunDirection(context.model.settings.up, context.model.settings.sun));
+    const uint32_t lit = packNormal(sunDirection(context.model.settings.up, context.model.settings.sun));
     const uint32_t plain = red | uint32_t{green} << 8 | uint32_t{blue} << 16;
     for (size_t i = 0; i < page.indices.size(); ++i) {
       const uint32_t vertex = page.indices[i];

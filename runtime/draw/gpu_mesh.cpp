@@ -67,10 +67,7 @@ glm::vec3 faceNormal(GridPoint a, GridPoint b, GridPoint c) {
 
 double atlasEdgesPerStep(const GeometryPage& page) {
   if (page.coordinates.empty()) return 0;
-  const auto onAtlas = [&](uint32_t vertex) {
-    const uint32_t packed = page.coordinates[vertex];
-    return glm::dvec2(packed & 0xffff, packed >> 16) / 65535.0;
-  };
+  const auto onAtlas = [&](uint32_t vertex) { return glm::dvec2(unpackedCoordinates(page.coordinates[vertex])); };
   double onImage = 0, surface = 0;  // twice the areas
   for (size_t i = 0; i + 2 < page.indices.size(); i += 3) {
     const uint32_t a = page.indices[i], b = page.indices[i + 1], c = page.indices[i + 2];

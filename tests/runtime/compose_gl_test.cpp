@@ -49,7 +49,7 @@ Triangles stripes(double x, double half, uint32_t colour) {
 }
 
 // Of a surface that faces along x, 0..255.
-double litFacingX() { return 255 * shared::lightFactor(glm::vec3(1, 0, 0), sunDirection(UpAxis::z)); }
+double litFacingX() { return 255 * shared::lightFactor(glm::vec3(1, 0, 0), sunDirection(UpAxis::z, Sun{})); }
 
 int channelAt(const FrameImage& image, int x, int y, int channel) {
   return image.rgba[static_cast<size_t>((y * image.width + x) * 4 + channel)];

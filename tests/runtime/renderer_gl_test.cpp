@@ -51,7 +51,7 @@ TEST(Renderer, aLitBoxFacingTheCameraHasExactlyTheShadedColour) {
   const uint32_t albedo = 0x00204080;
   DrawnPack drawn =
       openDrawn(boxTriangles({-1, -1, -1}, {1, 1, 1}, albedo), {.level = 1, .views = 12, .samplesPerEdge = 2});
-  const glm::vec3 sun = sunDirection(UpAxis::z);
+  const glm::vec3 sun = sunDirection(UpAxis::z, Sun{});
   const glm::vec3 expected = shared::shade(glm::vec3(0x80, 0x40, 0x20) / 255.0f, glm::vec3(1, 0, 0), sun) * 255.0f;
   FrameImage image;
   for (const RenderMode mode : {RenderMode::triangles, RenderMode::impostors}) {

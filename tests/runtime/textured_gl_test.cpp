@@ -43,7 +43,7 @@ Camera above(double height) {
 }
 
 float lightOf(const DrawnPack& drawn) {
-  return shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(drawn.pack->directory().model.settings.up));
+  return shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(drawn.pack->directory().model.settings.up, Sun{}));
 }
 
 // Of the picture's pixel, whose row 0 is the top; 64 samples of the image, unfiltered.

@@ -29,7 +29,8 @@ void addOptions(CLI::App& app, RepackOptions& options) {
 }
 
 nlohmann::ordered_json bytesJson(const PackBytes& bytes) {
-  return {{"pack", bytes.pack}, {"impostors", bytes.impostors}, {"geometry", bytes.geometry}, {"textures", bytes.textures}};
+  return {
+      {"pack", bytes.pack}, {"impostors", bytes.impostors}, {"geometry", bytes.geometry}, {"textures", bytes.textures}};
 }
 
 std::string changeText(const char* what, uint64_t before, uint64_t after) {

@@ -57,7 +57,7 @@ Appearance compare(const CellSoup& full, const CellSoup& simplified, int imageSi
   BakeSettings settings;
   settings.imageSize = imageSize;
   settings.samples = 16;
-  settings.sun = sunDirection(UpAxis::z);
+  settings.sun = sunDirection(UpAxis::z, Sun{});
   ViewBaker baker(settings);
   const Viewpoints viewpoints = Viewpoints::create(42).value();
   const auto bake = [&](const CellSoup& soup, int view) {

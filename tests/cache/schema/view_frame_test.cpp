@@ -73,15 +73,15 @@ TEST(Model, UpAndSunAreUnitVectorsAndTheSunStandsAboveTheHorizon) {
   for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
     EXPECT_EQ(glm::length(upVector(up)), 1);
     EXPECT_EQ(upVector(up)[static_cast<int>(up)], 1);
-    EXPECT_NEAR(glm::length(sunDirection(up)), 1, 1e-6);
-    EXPECT_GT(glm::dot(glm::dvec3(sunDirection(up)), upVector(up)), 0.5);
+    EXPECT_NEAR(glm::length(sunDirection(up, Sun{})), 1, 1e-6);
+    EXPECT_GT(glm::dot(glm::dvec3(sunDirection(up, Sun{})), upVector(up)), 0.5);
   }
 }
 
 // To the bit: packs and pictures of no sun in particular stay what they were.
 TEST(Model, TheSunUnlessToldOtherwiseIsTheDirectionSixFiveSeven) {
   const glm::vec3 expected(glm::normalize(glm::dvec3(0.6, 0.5, 0.7)));
-  EXPECT_EQ(sunDirection(UpAxis::z), expected);
+  EXPECT_EQ(sunDirection(UpAxis::z, Sun{}), expected);
   EXPECT_EQ(sunText({}), "39.8056,41.8685");
 }
 
@@ -92,7 +92,7 @@ TEST(Model, ASunIsTwoNumbersWithinATurnAndAQuarter) {
 }
 
 TEST(Model, TheSunOfTurnedAxesIsTheTurnedSun) {
-  const glm::vec3 z = sunDirection(UpAxis::z), x = sunDirection(UpAxis::x), y = sunDirection(UpAxis::y);
+  const glm::vec3 z = sunDirection(UpAxis::z, Sun{}), x = sunDirection(UpAxis::x, Sun{}), y = sunDirection(UpAxis::y, Sun{});
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_FLOAT_EQ(x[(axis + 1) % 3], z[axis]);
     EXPECT_FLOAT_EQ(y[(axis + 2) % 3], z[axis]);

@@ -102,7 +102,7 @@ class Look : public testing::TestWithParam<Lighting> {};
 
 TEST_P(Look, showsTheSameOnTheCpuAsInTheRenderer) {
   DrawnPack drawn = openDrawn(scene(), {.level = 0, .imageSize = 64, .lighting = GetParam()});
-  const CpuViews views(*drawn.pack, sunDirection(UpAxis::z));
+  const CpuViews views(*drawn.pack, sunDirection(UpAxis::z, Sun{}));
   for (const glm::dvec3 direction :
        {glm::dvec3(0.3, 0.5, 0.8), glm::dvec3(-0.7, 0.2, 0.3), glm::dvec3(0.1, -0.9, -0.4)}) {
     const glm::dvec3 toward = glm::normalize(direction);

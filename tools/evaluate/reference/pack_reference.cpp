@@ -58,10 +58,8 @@ Result<> appendAtlas(const PackFile& pack, uint32_t cell, uint32_t part, const G
                      LocalTriangles& local) {
   const bool there = !page.coordinates.empty();
   local.textureOf.insert(local.textureOf.end(), page.indices.size() / 3, there ? part : kNoTexture);
-  for (size_t i = 0; i < page.positions.size(); ++i) {
-    const uint32_t packed = there ? page.coordinates[i] : 0;
-    local.coordinates.push_back(glm::vec2(packed & 0xffff, packed >> 16) / 65535.0f);
-  }
+  for (size_t i = 0; i < page.positions.size(); ++i)
+    local.coordinates.push_back(there ? unpackedCoordinates(page.coordinates[i]) : glm::vec2(0));
   if (!there) {
     local.textures.add({}, AlphaMode::opaque);
     return {};

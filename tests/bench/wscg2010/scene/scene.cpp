@@ -50,7 +50,7 @@ void describe(Scene& scene, UpAxis up) {
   scene.max = glm::vec3(box.max);
   scene.centre = (box.min + box.max) * 0.5;
   scene.radius = glm::length(box.max - box.min) * 0.5;
-  scene.sun = sunDirection(up);
+  scene.sun = sunDirection(up, Sun{});
   scene.up = upVector(up);
 }
 

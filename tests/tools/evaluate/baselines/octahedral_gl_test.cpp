@@ -29,7 +29,7 @@ TEST(OctahedralImpostor, OfASphereCoversTheSphereFromAnyDirectionAbove) {
   testing::writeTestPack(testing::sphereModel(kCentre, kRadius, 4), directory.path() / "s.far", 1);
   const PackFile pack = PackFile::open(directory.path() / "s.far").value();
   GlContext context = GlContext::createHeadless().value();
-  const OctahedralViews views = bakeOctahedral(pack, 64, sunDirection(UpAxis::z)).value();
+  const OctahedralViews views = bakeOctahedral(pack, 64, sunDirection(UpAxis::z, Sun{})).value();
   ASSERT_EQ(views.colours.size(), size_t{kOctahedralFrames});
   const OctahedralImpostor impostor = OctahedralImpostor::create(context, views).value();
   for (const glm::dvec3 arm : {glm::dvec3(50, 3, 12), glm::dvec3(-20, -35, 30), glm::dvec3(2, 1, 60)}) {

@@ -85,7 +85,7 @@ TEST(PackReference, ASmoothSphereIsShadedByItsNormals) {
   const Camera camera = cameraAt(centre + glm::dvec3(2, -6, 3), centre, 0.25);
   const ReferenceImage image = traceModel(sphereModel(centre, 1, 6), camera, settings);
   const ReferenceView view = referenceView(camera, 60, 60);
-  const glm::dvec3 sun(sunDirection(UpAxis::z));
+  const glm::dvec3 sun(sunDirection(UpAxis::z, Sun{}));
   int compared = 0;
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x) {
@@ -120,7 +120,7 @@ TEST(PackReference, APlaneHasExactlyItsLitColour) {
       model.triangles.push_back(triangle);
     }
   const ReferenceImage image = traceModel(model, cameraAt({1, 2, 9}, {0.3, -0.2, 0}), {64, 48, 16, 0});
-  const double factor = 0.25 + 0.75 * sunDirection(UpAxis::z).z;
+  const double factor = 0.25 + 0.75 * sunDirection(UpAxis::z, Sun{}).z;
   for (int y = 0; y < 48; ++y)
     for (int x = 0; x < 64; ++x) {
       ASSERT_EQ(image.coverage[static_cast<size_t>(y * 64 + x)], 1) << "no gap where octants meet: " << x << ", " << y;
@@ -181,7 +181,7 @@ glm::dvec3 litColour(const Hit& hit) {
       channels(colours[0]) * (1 - hit.u - hit.v) + channels(colours[1]) * hit.u + channels(colours[2]) * hit.v;
   const auto& p = hit.triangle->positions;
   const glm::dvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-  return albedo * (0.25 + 0.75 * std::abs(glm::dot(normal, glm::dvec3(sunDirection(UpAxis::z)))));
+  return albedo * (0.25 + 0.75 * std::abs(glm::dot(normal, glm::dvec3(sunDirection(UpAxis::z, Sun{})))));
 }
 
 TEST(PackReference, AgreesWithABruteForceRayCasterFromOutsideAndInside) {

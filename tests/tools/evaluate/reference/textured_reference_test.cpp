@@ -50,7 +50,7 @@ TEST(TexturedReference, ShowsTheImageItselfNotThePacksVertexColours) {
   const ReferenceSettings settings{80, 60, 64, 1};
   const ReferenceImage traced = reference->trace(camera, settings).value();
   const ReferenceView view = referenceView(camera, settings.width, settings.height);
-  const float light = shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(UpAxis::z));
+  const float light = shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(UpAxis::z, Sun{}));
   int looked = 0;
   for (int y = 0; y < settings.height; ++y) {
     for (int x = 0; x < settings.width; ++x) {
@@ -106,7 +106,7 @@ Middle middleOf(const std::string& materials, const std::string& faces, double e
 TEST(TransparentReference, LayersAreBlendedInTheOrderOfTheRay) {
   const std::string materials = "newmtl a\nKd 1 0 0\nd .25\nnewmtl b\nKd 0 1 0\nd .5\nnewmtl c\nKd 0 0 1\n";
   const std::string two = "usemtl a\nf 5 6 7 8\nusemtl b\nf 9 10 11 12\n";
-  const float light = 255 * shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(UpAxis::z));
+  const float light = 255 * shared::lightFactor(glm::vec3(0, 0, 1), sunDirection(UpAxis::z, Sun{}));
   const double a = 64 / 255.0, b = 128 / 255.0;  // opacities as they are kept
   const auto expectRgb = [&](const Middle& found, glm::dvec3 expected, double coverage) {
     for (int channel = 0; channel < 3; ++channel)
