@@ -62,6 +62,9 @@ Result<> checkGeometry(const GeometryPage& page, uint32_t part, bool hasAtlas, c
                  fmt::format("{}, {}", !page.colours.empty(), !page.normals.empty()));
   if (page.coordinates.empty() == hasAtlas)
     return wrong(fmt::format("texture coordinates: {}", hasAtlas), fmt::format("{}", !page.coordinates.empty()));
+  const bool mayShow = cell.childCount > 0 && !model.hasNormals && model.settings.lighting == Lighting::baked;
+  if (!page.shown.empty() && !mayShow)
+    return wrong("triangles that show their vertices' colours", "some that say what they show");
   const GridPoint corner = cellBox(model.grid, cell.key).min;
   // Simplified meshes stay in the cube only: parts of them may stand for others beside them.
   const GridBox room = cell.childCount == 0 ? cell.content : cellBox(model.grid, cell.key);

@@ -235,6 +235,18 @@ TEST(PackFile, ReportsEachDamagedPageOnceWithPathOffsetExpectedAndFound) {
   EXPECT_EQ(damaged->readViews(1).error().kind, ErrorKind::corrupt);
 }
 
+TEST(PackFile, BelievesNoLitColoursWhereNoneCanBe) {
+  const TemporaryFile file("shown.far");
+  FullPack pack = samples::fullPack();
+  pack.geometry[0].shown = {0x00808080};  // of a leaf, which is drawn under any light
+  samples::write(pack, file.path());
+  const Result<PackFile> opened = PackFile::open(file.path());
+  ASSERT_TRUE(opened.has_value());
+  EXPECT_EQ(opened->readGeometry(2).error().kind, ErrorKind::corrupt);
+  EXPECT_TRUE(opened->readGeometry(3).has_value());
+  EXPECT_EQ(opened->verify(10, nullptr).size(), 1u);
+}
+
 TEST(PackFile, FailsWithAnErrorWhenTheFileShrinksUnderIt) {
   const TemporaryFile file("shrinks.far");
   samples::write(samples::fullPack(), file.path());
