@@ -46,7 +46,7 @@ struct ImpostorInstance {
 // filtered edges meet.
 const float kBoxPadTexels = 0.75f;
 
-const float kMostProbes = 16.0f;     // of a texture, along a pixel's footprint
+const float kMostProbes = 16.0f;  // of a texture, along a pixel's footprint
 const float kAtlasLodBias = 0.0f;
 const float kLodBias = -0.75f;  // sharper than the pixel's footprint asks: measured best
 

@@ -4,8 +4,8 @@
 //    (metrics/) and time it;
 // 3. per camera and other sun: the same, figures only (plan/suns.h);
 // 4. per camera path: the same frame by frame, with what changes between frames (path/);
-// 5. write report.json, report.csv, summary.csv, equal.csv, suns.csv, paths.csv, index.html, cameras.json and pictures
-// (report/).
+// 5. write report.json, report.csv, summary.csv, equal.csv, suns.csv, paths.csv, index.html, cameras.json and
+//    pictures (report/).
 #pragma once
 
 #include <cstdint>

@@ -21,8 +21,8 @@ Result<std::vector<OtherPack>> parseOtherPacks(const std::vector<std::string>& w
 class Packs {
  public:
   // invalidArgument, with both values, for another pack that was not built from the same files (their hash, and the
-  // triangles taken from them) or with another up axis, which
-  // a sun depends on.
+  // triangles taken from them) or with another up axis, which a
+  // sun depends on.
   static Result<Packs> open(const std::filesystem::path& own, const std::vector<OtherPack>& others);
 
   const PackFile& own() const { return own_; }

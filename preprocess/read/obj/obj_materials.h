@@ -18,10 +18,10 @@ namespace farcell {
 struct ObjMaterial {
   std::optional<uint32_t> colour;  // 0x00BBGGRR
   std::optional<ObjMap> map;
-  std::optional<float> opacity;  // in [0, 1]
-  std::optional<ObjMap> opacityMap;
-  std::filesystem::path opacityFile;
   std::filesystem::path mapFile;  // beside the library that names it, or else beside the OBJ file; with a map
+  std::optional<float> opacity;   // in [0, 1]
+  std::optional<ObjMap> opacityMap;
+  std::filesystem::path opacityFile;  // likewise
 };
 
 class ObjMaterials {

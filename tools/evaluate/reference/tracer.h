@@ -20,9 +20,8 @@ class SampleImage {
   // Whether any sample of the rectangle is still without a surface.
   bool unresolved(const ScreenBounds& bounds) const;
 
-  // Traces the open samples through each geometry in turn; a sample that hits one is closed. Transparent
-  // surfaces along a ray are blended in their order: exact, however few the samples. Geometries come front to
-  // back, and none may lie both before and behind another along any ray. Same result for any number of threads.
+  // Traces the open samples through each geometry in turn; a sample that hits one is closed. Transparent surfaces
+  // along a ray are blended in their order: exact, however few the samples. Geometries come front to back, and none may lie both before and behind another along any ray. Same result for any number of threads.
   void trace(std::span<const TracedGeometry> geometries, int threads);
 
   ReferenceImage finish() const;

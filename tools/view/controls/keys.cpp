@@ -25,7 +25,7 @@ constexpr std::array<Binding, 21> kBindings = {{
     {Key::five, Command::topView, "5", nullptr},
     {Key::six, Command::bottomView, "6", nullptr},
     {Key::m, Command::nextMode, "M", "what is drawn: auto, impostors, full"},
-    {Key::k, Command::nextKind, "K", "kind of the impostors: A, flat"},
+    {Key::k, Command::nextKind, "K", "kind of the impostors: A, B, flat"},
     {Key::l, Command::nextLight, "L", "light: sun, headlight (of relightable packs)"},
     {Key::left, Command::sunLeft, "Arrows", "left, right, up, down: move the sun (of relightable packs)"},
     {Key::right, Command::sunRight, "Right", nullptr},
