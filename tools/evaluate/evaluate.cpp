@@ -314,14 +314,15 @@ ReportFacts reportFacts(const EvaluateOptions& options, const Packs& packs, cons
   return facts;
 }
 
-// Where a time budget is given, what drawing costs on this machine.
+// A time budget is kept by what drawing costs on this machine; what has none draws the same picture on all.
 Result<> applySettings(const EvaluateOptions& options, GlContext& context, std::vector<RendererPlan>& plans) {
+  const auto isTimed = [](const RendererPlan& plan) { return plan.settings.selection.timeBudgetMs > 0; };
   CostModel costs = kDefaultCosts;
-  if (options.selection.timeBudgetMs > 0 || options.recalibrate) {
+  if (options.recalibrate || std::any_of(plans.begin(), plans.end(), isTimed)) {
     FARCELL_ASSIGN(costs, machineCosts(context, options.recalibrate));
   }
   for (RendererPlan& plan : plans) {
-    plan.settings.costs = costs;
+    plan.settings.costs = isTimed(plan) ? costs : kDefaultCosts;
     plan.settings.occlusion = options.occlusion;
     plan.settings.light = options.light;
   }

@@ -45,7 +45,7 @@ void addSelectionOptions(CLI::App& app, EvaluateOptions& options, Words& words) 
                  "of 'auto': the least error in a frame of so many milliseconds, by what drawing was measured to cost "
                  "on this machine at the first such start; 0: no such budget")
       ->type_name("MS")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(CLI::Range(0.0, kMostTimeBudgetMs))
       ->capture_default_str();
   app.add_flag("--recalibrate", options.recalibrate, "measure again what drawing costs on this machine");
   app.add_option("--occlusion", words.occlusion, "leave out what nearer triangles hide; on is an experiment")
@@ -95,8 +95,8 @@ void addRenderers(CLI::App& app, EvaluateOptions& options) {
       ->allow_extra_args(false);
   app.add_option(
          "--sweep", options.sweeps,
-         "texel-pixels=0.35,0.5, mesh-pixels=1,4 or triangle-budget=100k,2M: each renderer that has the setting, "
-         "once for each value; given for several: for each combination; at most 64 renderers in all")
+         "texel-pixels=0.35,0.5, mesh-pixels=1,4, triangle-budget=100k,2M or time-budget-ms=16,33: each renderer that "
+         "has the setting, once for each value; given for several: for each combination; at most 64 renderers in all")
       ->type_name("NAME=VALUES")
       ->allow_extra_args(false);
 }

@@ -73,6 +73,7 @@ Result<Names> parseNames(const std::string& names, std::span<const std::string> 
 bool usesTexelPixels(RenderMode mode) { return mode == RenderMode::automatic || mode == RenderMode::impostors; }
 bool usesMeshPixels(RenderMode mode) { return mode == RenderMode::automatic || mode == RenderMode::meshes; }
 bool usesTriangleBudget(RenderMode mode) { return mode == RenderMode::automatic; }
+bool usesTimeBudget(RenderMode mode) { return mode == RenderMode::automatic; }
 
 Result<std::vector<RendererPlan>> planRenderers(const std::string& names, int width, int height,
                                                 const SelectionSettings& selection, double lodPixels,

@@ -33,6 +33,7 @@ inline constexpr const char* kLodAsAuto = "lod-as-auto";  // meshes only, in the
 bool usesTexelPixels(RenderMode mode);
 bool usesMeshPixels(RenderMode mode);
 bool usesTriangleBudget(RenderMode mode);
+bool usesTimeBudget(RenderMode mode);
 
 // names: comma-separated, any order, repetitions allowed: those of kAllRenderers, kOctahedral, and kLodAsAuto, which
 // needs auto; with

@@ -68,6 +68,9 @@ constexpr std::array kSettings = {
             [](const RendererPlan& plan) { return usesTriangleBudget(plan.settings.selection.mode); }, parseBudget,
             countText,
             [](SelectionSettings& settings, double value) { settings.triangleBudget = static_cast<uint64_t>(value); }},
+    Setting{"time-budget-ms", [](const RendererPlan& plan) { return usesTimeBudget(plan.settings.selection.mode); },
+            [](const std::string& text) { return parseNumber(text, 0, kMostTimeBudgetMs); }, numberText,
+            [](SelectionSettings& settings, double value) { settings.timeBudgetMs = value; }},
 };
 
 std::string knownSettings() {

@@ -75,6 +75,7 @@ Json settingsJson(const RendererPlan& plan) {
   }
   if (usesMeshPixels(settings.selection.mode)) json["meshPixels"] = settings.selection.meshPixels;
   if (usesTriangleBudget(settings.selection.mode)) json["triangleBudget"] = settings.selection.triangleBudget;
+  if (usesTimeBudget(settings.selection.mode)) json["timeBudgetMs"] = settings.selection.timeBudgetMs;
   return json;
 }
 

@@ -20,7 +20,7 @@ std::string script() {
   std::string text;
   for (const char* name :
        {"format.js", "model.js", "scale.js", "labels.js", "plot.js", "plot_controls.js", "front.js", "table.js",
-        "equal.js", "pictures.js", "paths.js", "main.js"})
+        "equal.js", "suns.js", "pictures.js", "paths.js", "main.js"})
     text += pageFile(name);
   return text;
 }

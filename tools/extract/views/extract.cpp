@@ -7,7 +7,7 @@
 #include "cache/base/file.h"
 #include "cache/base/interrupt.h"
 #include "cache/schema/viewpoints.h"
-#include "tools/extract/views/image_file.h"
+#include "tools/extract/image/image_file.h"
 
 namespace farcell {
 namespace {

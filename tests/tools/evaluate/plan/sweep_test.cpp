@@ -56,6 +56,14 @@ TEST(Sweep, MeshPixelsAreOfRenderersWithSimplifiedMeshes) {
   EXPECT_EQ(plans->back().timeOf, "auto") << "its own is searched";
 }
 
+TEST(Sweep, TimeBudgetsAreOfAutomaticPictures) {
+  const auto plans = sweepOf("lod,A,auto", {"time-budget-ms=0,16.5"});
+  ASSERT_EQ(namesOf(plans), "full-1spp full-4spp lod A auto@time-budget-ms=0 auto@time-budget-ms=16.5");
+  EXPECT_EQ((*plans)[4].settings.selection.timeBudgetMs, 0);
+  EXPECT_EQ((*plans)[5].settings.selection.timeBudgetMs, 16.5);
+  EXPECT_EQ((*plans)[5].kind, "auto");
+}
+
 TEST(Sweep, EqualValuesCountOnceHoweverTheyAreWritten) {
   EXPECT_EQ(namesOf(sweepOf("auto", {"triangle-budget=100k,100000,0.1M"})),
             "full-1spp full-4spp auto@triangle-budget=100k");
@@ -90,6 +98,7 @@ TEST(Sweep, SaysWhatIsWrong) {
       {{"texel-pixels=nan"}, "found 'nan'"},
       {{"texel-pixels=-1"}, "found '-1'"},
       {{"texel-pixels=0.5x"}, "found '0.5x'"},
+      {{"time-budget-ms=-1"}, "--sweep time-budget-ms: expected a number from 0 to 1000000, found '-1'"},
       {{"mesh-pixels=-0.1"}, "--sweep mesh-pixels: expected a number from 0 to 100, found '-0.1'"},
       {{"triangle-budget=1q"}, "found '1q'"},
       {{"triangle-budget=-5"}, "found '-5'"},

@@ -12,6 +12,7 @@
 #include "tools/evaluate/report/path_report.h"
 #include "tools/evaluate/report/report.h"
 #include "tools/evaluate/report/summary.h"
+#include "tools/evaluate/report/sun_report.h"
 
 namespace farcell {
 namespace {
@@ -129,17 +130,19 @@ TEST_F(Page, PlotsEveryRendererAndTheFrontWhateverTheNames) {
   EXPECT_NE(dom.find("<title>&lt;/script&gt;"), std::string::npos);
 }
 
-TEST_F(Page, PlotsTheFrontOfBytesAndComparesAtEqualTime) {
+TEST_F(Page, PlotsTheFrontOfBytesAndComparesAtEqualTimeAndUnderOtherSuns) {
   std::vector<Entry> entries = entriesOf({"one", "two"});
   nlohmann::ordered_json json = reportJson(facts_, entries);
   json["equal"] = equalJson(equalTable(entries));
+  json["suns"] = sunsJson(std::vector<SunEntries>{{{0, 0.5}, entries}, {{1, 0.25}, entries}, {{2, 0}, entries}});
   const std::string script = R"js(
     const notes = [], all = (selector) => [...document.querySelectorAll(selector)];
     const chooser = document.querySelector("#front select");
     notes.push(all("#front .dot.best").length);
     chooser.value = "bytes";
     chooser.dispatchEvent(new Event("change"));
-    notes.push(all("#front .dot.best").length, all("#equal-summary tbody tr").length, all("#equal-cameras tbody tr").length);
+    notes.push(all("#front .dot.best").length, all("#equal-summary tbody tr").length, all("#equal-cameras tbody tr").length,
+               all("#suns-table tbody tr").length, document.getElementById("suns").hidden);
     document.getElementById("result").textContent = notes.join(" | ");
   )js";
   size_t time = 0, bytes = 0;
@@ -149,7 +152,7 @@ TEST_F(Page, PlotsTheFrontOfBytesAndComparesAtEqualTime) {
   }
   const std::string dom = chromium_.domOf(write(json, script));
   EXPECT_EQ(countOf(dom, "data-errors=\"0\""), 1u) << chromium_.log();
-  const std::string expected = fmt::format("<p id=\"result\">{} | {} | 9 | 18</p>", time, bytes);
+  const std::string expected = fmt::format("<p id=\"result\">{} | {} | 9 | 18 | 3 | false</p>", time, bytes);
   EXPECT_NE(dom.find(expected), std::string::npos)
       << dom.substr(std::min(dom.size(), dom.find("<p id=\"result\"")), 99);
 }

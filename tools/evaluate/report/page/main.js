@@ -68,6 +68,7 @@ if (cameras.length) {
   makeSummary();
   makeFront();
   makeEqual();
+  makeSuns();
   makePlots();
   makePictures();
   makeEntries();

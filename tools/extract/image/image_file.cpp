@@ -1,4 +1,4 @@
-#include "tools/extract/views/image_file.h"
+#include "tools/extract/image/image_file.h"
 
 #include <OpenImageIO/imageio.h>
 
