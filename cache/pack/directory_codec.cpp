@@ -9,6 +9,7 @@ namespace {
 
 constexpr uint32_t kHasNormals = 1;
 constexpr uint32_t kHasColours = 2;
+constexpr uint32_t kHasSides = 4;
 
 using Counts = std::map<std::string, uint64_t>;
 
@@ -64,7 +65,8 @@ void write(ByteWriter& out, const Model& model) {
   for (int axis = 0; axis < 3; ++axis) out.f64(model.grid.origin[axis]);
   out.f64(model.grid.side);
   out.i32(model.grid.bits);
-  out.u32((model.hasNormals ? kHasNormals : 0) | (model.hasColours ? kHasColours : 0));
+  out.u32((model.hasNormals ? kHasNormals : 0) | (model.hasColours ? kHasColours : 0) |
+          (model.hasSides ? kHasSides : 0));
   write(out, model.bounds);
   write(out, model.settings);
 }
@@ -75,9 +77,11 @@ Model readModel(ByteReader& in, bool& valid) {
   model.grid.side = in.f64();
   model.grid.bits = in.i32();
   const uint32_t flags = in.u32();
-  valid = valid && (flags & ~(kHasNormals | kHasColours)) == 0;
+  valid = valid && (flags & ~(kHasNormals | kHasColours | kHasSides)) == 0;
   model.hasNormals = (flags & kHasNormals) != 0;
   model.hasColours = (flags & kHasColours) != 0;
+  model.hasSides = (flags & kHasSides) != 0;
+  valid = valid && (model.hasColours || !model.hasSides);
   model.bounds = readBox(in);
   model.settings = readSettings(in);
   return model;

@@ -65,6 +65,9 @@ Result<> checkGeometry(const GeometryPage& page, uint32_t part, bool hasAtlas, c
   const bool mayShow = cell.childCount > 0 && !model.hasNormals && model.settings.lighting == Lighting::baked;
   if (!page.shown.empty() && !mayShow)
     return wrong("triangles that show their vertices' colours", "some that say what they show");
+  const uint32_t mayBeSet = 0xffffff | (model.hasSides && cell.childCount == 0 ? kSeenFromFront : 0);
+  for (const uint32_t colour : page.colours)
+    if ((colour & ~mayBeSet) != 0) return wrong("colours of 3 bytes", fmt::format("{:#010x}", colour));
   const GridPoint corner = cellBox(model.grid, cell.key).min;
   // Simplified meshes stay in the cube only: parts of them may stand for others beside them.
   const GridBox room = cell.childCount == 0 ? cell.content : cellBox(model.grid, cell.key);

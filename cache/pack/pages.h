@@ -17,7 +17,7 @@ namespace farcell {
 // each in [0, 2^(bits-level)]; vertices are shared wherever all that they have agrees.
 struct GeometryPage {
   std::vector<glm::uvec3> positions{};
-  std::vector<uint32_t> colours{};  // 0x00BBGGRR per vertex; empty: the model has none
+  std::vector<uint32_t> colours{};  // 0x00BBGGRR per vertex, and kSeenFromFront; empty: the model has none
   std::vector<uint32_t> normals{};  // octahedral, low 16 bits x, high 16 bits y, each snorm16; empty: flat faces
   // On the atlas of the page (TexturePage), low 16 bits u, high 16 bits v, each unorm16: there the albedo is the colour
   // times the texture, channel by channel. Empty: the page has no atlas.
@@ -28,6 +28,10 @@ struct GeometryPage {
   std::vector<uint32_t> shown{};
   bool operator==(const GeometryPage&) const = default;
 };
+
+// Set in the colours of all corners of a leaf's triangle that is seen only by those for whom they run
+// counter-clockwise.
+inline constexpr uint32_t kSeenFromFront = 1u << 24;
 
 // Of GeometryPage::coordinates, from (0, 0), the lowest corner of the atlas, to (1, 1).
 inline glm::vec2 unpackedCoordinates(uint32_t packed) {

@@ -76,6 +76,7 @@ struct Model {
   BuildSettings settings;
   bool hasNormals = false;  // the file gave vertex normals: smooth shading; else faces are flat
   bool hasColours = false;  // the file gave colours; else kDefaultAlbedo
+  bool hasSides = false;    // some triangles are seen from their front only (GeometryPage::colours); needs colours
   bool operator==(const Model&) const = default;
 };
 

@@ -333,8 +333,9 @@ class Build {
     tree_ = cellTreeOf(partition_->leaves, partition_->triangles);
     result_.textures = {textures_->count() - textures_->leftOut().size(), textures_->leftOut()};
     directory.sourceName = meshes_[0].filename().string();
-    directory.model = {partition_->grid, partition_->bounds, settings_, source_.info.hasNormals,
-                       source_.info.hasColours};
+    directory.model = {
+        partition_->grid,        partition_->bounds,      settings_,
+        source_.info.hasNormals, source_.info.hasColours, source_.info.hasColours && textures_->haveSides()};
     directory.report.inputTriangles = partition_->counts.accepted;
     directory.report.inputVertices = source_.info.vertices;
     directory.report.skipped = partition_->counts.skipped;

@@ -76,6 +76,15 @@ class MeshWriter {
   uint64_t bytes_ = 0;
 };
 
+// Marks the triangles that are seen from their front only.
+void markSides(GridTriangles& part, const TextureSampler& textures) {
+  for (size_t i = 0; i < part.textures.size(); ++i) {
+    const uint32_t texture = part.textures[i].texture;
+    if (texture == kNoTexture || textures.surface(texture).doubleSided) continue;
+    for (uint32_t& colour : part.triangles[i].colours) colour |= kSeenFromFront;
+  }
+}
+
 // ---- inner cells ----
 
 // Welded, with quadrics, its edges and the trees by which distances are measured.
@@ -93,7 +102,7 @@ Result<LodMesh> storedMesh(const BuildContext& context, uint32_t cell) {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     for (const glm::uvec3& position : page.positions) mesh.positions.push_back(cellMin + GridPoint(position));
     for (const uint32_t index : page.indices) mesh.indices.push_back(first + index);
-    mesh.colours.insert(mesh.colours.end(), page.colours.begin(), page.colours.end());
+    for (const uint32_t colour : page.colours) mesh.colours.push_back(colour & ~kSeenFromFront);
     mesh.normals.insert(mesh.normals.end(), page.normals.begin(), page.normals.end());
     mesh.shown.insert(mesh.shown.end(), page.shown.begin(), page.shown.end());
   }
@@ -153,6 +162,7 @@ Result<> codeLeaf(const BuildContext& context, uint32_t cell, TextureSampler* te
     FARCELL_TRY(checkInterrupt());
     std::optional<Atlas> atlas;
     if (!part.textures.empty()) atlas = atlasOf(part.textures, *textures);
+    if (context.model.hasSides) markSides(part, *textures);
     GeometryPage page;
     if (atlas) page = geometryPage(part.triangles, cellMin, context.model, atlas->coordinates);
     const GeometryPage coloured =

@@ -55,7 +55,7 @@ double areaSteps(const GridTriangle& triangle) {
 }
 
 uint32_t multiplied(uint32_t colour, const Mean& mean) {
-  uint32_t product = 0;
+  uint32_t product = colour & ~0xffffffu;
   for (int channel = 0; channel < 3; ++channel) {
     const double value = (colour >> 8 * channel & 0xff) * mean.sum[channel] / mean.weight;
     product |= static_cast<uint32_t>(value + 0.5) << 8 * channel;

@@ -10,6 +10,7 @@
 // on it. Its triangles keep the colours that they have without it, and leftOut() says so.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -46,6 +47,10 @@ class Textures {
   size_t count() const { return pyramids_.size(); }
   // Why each image that was left out was, in the order of the sources.
   const std::vector<Error>& leftOut() const { return leftOut_; }
+  // Whether triangles with one of them are seen from their front only.
+  bool haveSides() const {
+    return std::any_of(pyramids_.begin(), pyramids_.end(), [](const auto& p) { return !p.surface.doubleSided; });
+  }
   // Must not outlive the textures.
   std::unique_ptr<TextureSampler> sampler() const;
 

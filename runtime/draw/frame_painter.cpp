@@ -85,6 +85,7 @@ Result<FramePainter::Programs> FramePainter::loadPrograms(Look look) const {
   if (look != Look::picture) defines = {"SHOW", kLookDefines[static_cast<size_t>(look)]};
   std::vector<std::string> triangleDefines = defines;
   if (model.hasNormals) triangleDefines.push_back("SMOOTH_NORMALS");
+  if (model.hasSides) triangleDefines.push_back("SIDES");
   if (model.settings.lighting == Lighting::relightable) defines.push_back("RELIGHTABLE");
   Programs programs;
   for (const bool shared : {false, true})

@@ -11,8 +11,6 @@
 namespace farcell {
 namespace {
 
-constexpr uint32_t kOpaque = 0xff000000u;
-
 uint32_t packedDefaultAlbedo() {
   return kDefaultAlbedo[0] | static_cast<uint32_t>(kDefaultAlbedo[1]) << 8 |
          static_cast<uint32_t>(kDefaultAlbedo[2]) << 16;
@@ -49,7 +47,7 @@ void assignFlatNormals(GpuMesh& mesh, std::span<const uint32_t> shown) {
     }
     owned[mesh.indices[first + 2]] = true;
     mesh.vertices[mesh.indices[first + 2]].normal = normal;
-    if (!shown.empty()) mesh.vertices[mesh.indices[first + 2]].colour = shown[first / 3];
+    if (!shown.empty()) mesh.vertices[mesh.indices[first + 2]].colour = kShown | shown[first / 3];
   }
 }
 
@@ -88,7 +86,8 @@ GpuMesh makeGpuMesh(const GeometryPage& page, GridPoint origin) {
   for (size_t i = 0; i < page.positions.size(); ++i) {
     GpuVertex& vertex = mesh.vertices[i];
     vertex.position = origin + GridPoint(page.positions[i]);
-    vertex.colour = (page.colours.empty() ? albedo : page.colours[i]) | kOpaque;
+    const uint32_t colour = page.colours.empty() ? albedo : page.colours[i];
+    vertex.colour = (colour & ~kSeenFromFront) | ((colour & kSeenFromFront) != 0 ? kLitFront : kLit);
     if (!page.normals.empty()) vertex.normal = page.normals[i];
   }
   mesh.coordinates = page.coordinates;

@@ -9,9 +9,14 @@
 
 namespace farcell {
 
+// What a triangle's last corner says in the alpha of its colour.
+inline constexpr uint32_t kLit = 0xff000000u;       // an albedo
+inline constexpr uint32_t kLitFront = 0x80000000u;  // an albedo, seen from the front only
+inline constexpr uint32_t kShown = 0;               // what the triangle shows, whatever the light
+
 struct GpuVertex {
   GridPoint position{0};  // grid steps from the grid's origin
-  uint32_t colour = 0;    // 0xffBBGGRR
+  uint32_t colour = 0;    // 0xAABBGGRR, A of the kinds below
   uint32_t normal = 0;    // octahedral, snorm16 pair; flat faces: of the triangle whose last corner this is
 };
 static_assert(sizeof(GpuVertex) == 20);

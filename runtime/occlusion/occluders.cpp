@@ -48,6 +48,8 @@ Result<std::vector<Occluder>> readOccluders(const PackFile& pack, uint32_t leaf)
   for (uint32_t part = 0; part < cell.geometryPageCount; ++part) {
     FARCELL_ASSIGN(const GeometryPage page, pack.readGeometry(cell.firstGeometryPage + part));
     for (size_t i = 0; i + 2 < page.indices.size(); i += 3) {
+      if (!page.colours.empty() && (page.colours[page.indices[i]] & kSeenFromFront) != 0)
+        continue;  // hides one side only
       Occluder occluder;
       for (size_t k = 0; k < 3; ++k) occluder.corners[k] = low + GridPoint(page.positions[page.indices[i + k]]);
       const glm::dvec3 u(occluder.corners[1] - occluder.corners[0]), v(occluder.corners[2] - occluder.corners[0]);

@@ -21,6 +21,9 @@ flat in int shares;
 #ifdef SHOW_NORMALS
 in vec3 along;
 #endif
+#ifdef SIDES
+flat in float seenFromBehind;
+#endif
 #ifdef TEXTURED
 centroid in vec2 onAtlas;
 layout(binding = 3) uniform sampler2D atlas;
@@ -57,6 +60,9 @@ layout(location = 0) out vec4 colour;            // premultiplied by coverage
 layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked for
 
 void main() {
+#ifdef SIDES
+  if (!gl_FrontFacing && seenFromBehind == 0.0) discard;
+#endif
 #ifdef TEXTURED
   vec4 onSurface = atlasColour();
   vec3 surface = albedo * onSurface.rgb / max(onSurface.a, 0.001);

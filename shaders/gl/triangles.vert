@@ -3,6 +3,7 @@
 //
 // SHARES: for some of the samples only (hand_over.h).
 // TEXTURED: the colour is multiplied with an atlas.
+// SIDES: some triangles are seen from their front only.
 // SHOW_TINT, SHOW_DEPTH, SHOW_NORMALS: what shaders/shared/show.h says, instead of the picture.
 #include "shaders/shared/draw.h"
 #include "shaders/shared/shading.h"
@@ -19,6 +20,9 @@ flat out int shares;
 #endif
 #ifdef SHOW_NORMALS
 out vec3 along;  // from the eye
+#endif
+#ifdef SIDES
+flat out float seenFromBehind;
 #endif
 #ifdef TEXTURED
 layout(location = 4) in vec2 coordinates;  // on the atlas
@@ -44,7 +48,7 @@ void main() {
   surfaceNormal = unit;
 #else
   light = lightFactor(unit, frame.light.xyz);
-  shown = vec4(colour.rgb, 1.0 - colour.a);
+  shown = vec4(colour.rgb, colour.a == 0.0 ? 1.0 : 0.0);
   faceNormal = unit;
 #endif
 #if defined(SHOW_TINT) || defined(SHARES)
@@ -53,6 +57,9 @@ void main() {
 #endif
 #ifdef SHOW_NORMALS
   along = relative;
+#endif
+#ifdef SIDES
+  seenFromBehind = colour.a == 0.0 || colour.a == 1.0 ? 1.0 : 0.0;
 #endif
 #ifdef TEXTURED
   onAtlas = coordinates;

@@ -1,11 +1,14 @@
 // Near triangles show their textures: packs as the build makes them, against the image by its own formula.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
 #include "shaders/shared/shading.h"
 #include "tests/runtime/built_pack.h"
+#include "tests/support/gltf_writer.h"
 #include "tests/support/images/encode_image.h"
 
 namespace farcell {
@@ -111,6 +114,53 @@ TEST(Textured, aSheetThatIsAQuarterThereCoversAQuarter) {
   const double pixels = kEdge * kEdge;
   EXPECT_NEAR(coverage / pixels / 255, 0.25, 0.01);
   EXPECT_NEAR(colour / coverage, lightOf(drawn), 0.02);  // its own colour where it is
+}
+
+// Two squares in the plane z = 0: on the left of one that is seen from its front only, on the right of one seen from
+// both sides; facing +z. With an image, or plain.
+DrawnPack twoSquares(bool withImage) {
+  const auto write = [&](const std::filesystem::path& mesh) -> Result<> {
+    test::GltfWriter writer;
+    if (withImage) {
+      const uint32_t view = writer.addView(test::encodeImage("png", {8, 8, 3, 8}, [](int, int, int) { return 200; }));
+      writer.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
+      writer.add("textures", {{"source", 0}});
+    }
+    for (const bool both : {false, true}) {
+      const float left = both ? 0.0f : -1.0f;
+      nlohmann::json material = {{"doubleSided", both}};
+      if (withImage) material["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+      const uint32_t positions = writer.addArray<float>(
+          "VEC3", {left, -1, 0, left + 1, -1, 0, left + 1, 1, 0, left, -1, 0, left + 1, 1, 0, left, 1, 0});
+      const uint32_t coordinates = writer.addArray<float>("VEC2", {0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1});
+      writer.show({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", coordinates}}},
+                   {"material", writer.add("materials", material)}});
+    }
+    std::ofstream(mesh, std::ios::binary) << writer.glb();
+    return {};
+  };
+  return buildDrawn("squares.glb", write, kPlentyBytes);
+}
+
+TEST(Textured, whatIsSeenFromItsFrontOnlyIsNotThereFromBehind) {
+  for (const bool withImage : {false, true}) {
+    DrawnPack drawn = twoSquares(withImage);
+    ASSERT_TRUE(drawn.pack->directory().model.hasSides);
+    EXPECT_EQ(drawn.pack->directory().cells[0].firstTexturePage != kNone, withImage);
+    for (const double height : {2.0, -2.0})
+      for (const RenderMode mode : {RenderMode::full, RenderMode::impostors}) {
+        FrameImage image;
+        drawn.draw(above(height), sized(kEdge, kEdge, mode), image);
+        std::array<double, 2> coverage{};  // of the picture's halves
+        for (size_t i = 0; i < image.rgba.size(); i += 4)
+          coverage[i / 4 % kEdge < kEdge / 2 ? 0 : 1] += image.rgba[i + 3] / (255.0 * kEdge * kEdge / 2);
+        std::sort(coverage.begin(), coverage.end());
+        // The picture is 1.46 wide and high, all of it within the squares; in views a texel at their seam is a tenth.
+        const double near = mode == RenderMode::full ? 0.005 : 0.06;
+        EXPECT_NEAR(coverage[1], 1, near) << height;
+        EXPECT_NEAR(coverage[0], height > 0 ? 1 : 0, near) << height << withImage;
+      }
+  }
 }
 
 TEST(Textured, picturesDoNotDependOnTheBytesThatTheGpuMayKeepButForFineness) {

@@ -22,6 +22,7 @@ namespace farcell::testing {
 struct TestModel {
   Grid grid;
   bool hasColours = false;
+  bool hasSides = false;
   bool hasNormals = false;
   Lighting lighting = Lighting::baked;  // of the pack's views, of which it has none
   std::vector<InputTriangle> triangles;
@@ -99,6 +100,7 @@ inline void writeTestPack(const TestModel& model, const std::filesystem::path& p
   Directory directory;
   directory.model.grid = model.grid;
   directory.model.hasColours = model.hasColours;
+  directory.model.hasSides = model.hasSides;
   directory.model.hasNormals = model.hasNormals;
   directory.model.settings.lighting = model.lighting;
   directory.sourceName = "model.ply";

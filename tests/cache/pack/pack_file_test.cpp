@@ -247,6 +247,20 @@ TEST(PackFile, BelievesNoLitColoursWhereNoneCanBe) {
   EXPECT_EQ(opened->verify(10, nullptr).size(), 1u);
 }
 
+TEST(PackFile, BelievesNoSidesWhereTheModelHasNone) {
+  for (const bool hasSides : {false, true}) {
+    const TemporaryFile file("sides.far");
+    FullPack pack = samples::fullPack();
+    pack.directory.model.hasSides = hasSides;
+    pack.geometry[0].colours[1] |= kSeenFromFront;
+    samples::write(pack, file.path());
+    const Result<PackFile> opened = PackFile::open(file.path());
+    ASSERT_TRUE(opened.has_value()) << opened.error().message;
+    EXPECT_EQ(opened->readGeometry(2).has_value(), hasSides);
+    EXPECT_EQ(opened->directory().model.hasSides, hasSides);
+  }
+}
+
 TEST(PackFile, FailsWithAnErrorWhenTheFileShrinksUnderIt) {
   const TemporaryFile file("shrinks.far");
   samples::write(samples::fullPack(), file.path());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "cache/pack/pages.h"
 #include "cache/schema/model.h"
 #include "shaders/shared/shading.h"
 
@@ -63,7 +64,13 @@ glm::vec4 textureAt(const LocalTriangles& geometry, uint32_t triangle, float u, 
   return geometry.textures.colourAt(geometry.textureOf[triangle], at);
 }
 
+bool isFrontOnly(const LocalTriangles& geometry, uint32_t triangle) {
+  return !geometry.colours.empty() && (geometry.colours[geometry.triangles[triangle].x] & kSeenFromFront) != 0;
+}
+
 bool isWhole(const LocalTriangles& geometry) {
+  for (uint32_t triangle = 0; triangle < geometry.triangles.size(); ++triangle)
+    if (isFrontOnly(geometry, triangle)) return false;
   return std::all_of(geometry.textureOf.begin(), geometry.textureOf.end(), [&](uint32_t texture) {
     return texture == kNoTexture || geometry.textures.surface(texture).whole();
   });
@@ -113,11 +120,12 @@ Result<TracedGeometry> buildTracedGeometry(RTCDevice device, LocalTriangles tria
 }
 
 float opacityAt(const LocalTriangles& geometry, uint32_t triangle, float u, float v, glm::dvec3 direction) {
-  if (geometry.textureOf.empty() || geometry.textureOf[triangle] == kNoTexture) return 1;
-  const SurfaceKind& surface = geometry.textures.surface(geometry.textureOf[triangle]);
+  const bool textured = !geometry.textureOf.empty() && geometry.textureOf[triangle] != kNoTexture;
+  const SurfaceKind surface = textured ? geometry.textures.surface(geometry.textureOf[triangle]) : SurfaceKind{};
   const glm::uvec3 corners = geometry.triangles[triangle];
   const glm::dvec3 a(geometry.positions[corners.x]), b(geometry.positions[corners.y]), c(geometry.positions[corners.z]);
-  if (!surface.doubleSided && glm::dot(glm::cross(b - a, c - a), direction) >= 0) return 0;
+  const bool isOneSided = !surface.doubleSided || isFrontOnly(geometry, triangle);
+  if (isOneSided && glm::dot(glm::cross(b - a, c - a), direction) >= 0) return 0;
   return surface.alpha == AlphaMode::opaque ? 1 : textureAt(geometry, triangle, u, v).w;
 }
 

@@ -20,7 +20,7 @@ struct LocalTriangles {
   double unit = 1;            // world length of 1
   glm::dvec3 min{0}, max{0};  // world box around them
   std::vector<glm::vec3> positions;
-  std::vector<uint32_t> colours;  // 0x00BBGGRR per position; empty: kDefaultAlbedo
+  std::vector<uint32_t> colours;  // as in GeometryPage; empty: kDefaultAlbedo
   std::vector<uint32_t> normals;  // octahedral per position, as in GeometryPage; empty: flat faces
   std::vector<glm::uvec3> triangles;
   // What multiplies the colours; empty: no triangle has a texture.

@@ -130,6 +130,26 @@ TEST(PackReference, APlaneHasExactlyItsLitColour) {
     }
 }
 
+// A sheet over another, and seen from its front only.
+TEST(PackReference, WhatIsSeenFromItsFrontOnlyIsNotThereFromBehind) {
+  TestModel model;
+  model.grid = gridAround({-10, -10, -10}, {10, 10, 10});
+  model.hasColours = model.hasSides = true;
+  for (const auto& [z, colour] : {std::pair{2.0, 0x00204080u | kSeenFromFront}, {1.0, 0x00ff0000u}}) {
+    InputTriangle triangle{};
+    triangle.colours.fill(colour);
+    triangle.positions = {glm::dvec3(1, 1, z), glm::dvec3(9, 1, z), glm::dvec3(5, 9, z)};
+    model.triangles.push_back(triangle);
+  }
+  const Camera above = cameraAt({5, 4.1, 9}, {5, 4, 0}), below = cameraAt({5, 4.1, -9}, {5, 4, 0});
+  const ReferenceSettings settings{8, 8, 16, 0};
+  EXPECT_GT(colourAt(traceModel(model, above, settings), 4, 4).x, 20) << "the upper sheet";
+  EXPECT_EQ(colourAt(traceModel(model, below, settings), 4, 4).x, 0) << "the lower sheet hides it";
+  model.triangles.pop_back();
+  EXPECT_EQ(traceModel(model, above, settings).coverage[36], 1);
+  EXPECT_EQ(traceModel(model, below, settings).coverage[36], 0);
+}
+
 // Triangles anywhere in the octants of [-1, 1]^3 around `offset`, each corner of its own colour.
 TestModel randomModel(uint32_t seed, glm::dvec3 offset, int count) {
   std::mt19937 random(seed);
