@@ -117,8 +117,7 @@ struct Passes {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const PackFile& packFile, Viewpoints set)
-      : pack(packFile), viewpoints(std::move(set)), multisamples(samplePositions()), occluders(packFile) {}
+  explicit Impl(const PackFile& packFile) : pack(packFile), multisamples(samplePositions()), occluders(packFile) {}
 
   Result<> checkSettings(const RenderSettings& settings) const;
   const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
@@ -129,7 +128,6 @@ struct Renderer::Impl {
   Result<FrameStats> showNext(Shown next, GLuint framebuffer);
 
   const PackFile& pack;
-  const Viewpoints viewpoints;
   const std::vector<glm::vec2> multisamples;
   int maxSize = 0;
   OccluderCache occluders;
@@ -185,7 +183,7 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
   const Directory& directory = pack.directory();
   const auto selector = handsOver(settings) ? selectHandOver : selectCut;
   const auto select = [&](const HiddenCells* hidden) {
-    return selector(directory, viewpoints, camera, settings.width, settings.height, selection, hidden);
+    return selector(directory, camera, settings.width, settings.height, selection, hidden);
   };
   Cut cut = select(nullptr);
   const bool known = settings.samplesPerPixel == 1 || multisamples.size() == kMultisamples;
@@ -261,8 +259,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::create(GlContext&, const PackFile& pack, uint64_t residentBytes) {
-  FARCELL_ASSIGN(Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
-  auto impl = std::make_unique<Impl>(pack, std::move(viewpoints));
+  auto impl = std::make_unique<Impl>(pack);
   GLint samples = 0;
   GLint textureSize = 0;
   std::array<GLint, 2> viewport{};
@@ -272,7 +269,7 @@ Result<Renderer> Renderer::create(GlContext&, const PackFile& pack, uint64_t res
   if (samples < kMultisamples)
     return fail(ErrorKind::unsupported, "this OpenGL has {} samples per pixel, {} are needed", samples, kMultisamples);
   impl->maxSize = std::min({textureSize, viewport[0], viewport[1]});
-  FARCELL_ASSIGN(FramePainter painter, FramePainter::create(pack, impl->viewpoints, residentBytes));
+  FARCELL_ASSIGN(FramePainter painter, FramePainter::create(pack, residentBytes));
   impl->painter.emplace(std::move(painter));
   return Renderer(std::move(impl));
 }

@@ -47,6 +47,7 @@ struct CellRecord {
   // whose atlases are the same: PageRecord::cell says whose they are.
   uint32_t firstTexturePage = kNone;
   uint32_t texturePageCount = 0;
+  ViewForm form = {};      // of its views, also where it has none
   ErrorTable errors = {};  // of its mesh and of its views, where they are there and were measured
 };
 

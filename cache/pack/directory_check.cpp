@@ -15,14 +15,16 @@ namespace {
 
 constexpr uint64_t kMaxWordsRatio = 12;                    // a triangle of 12 bytes may be one byte before deflate
 constexpr uint64_t kMaxMeshTriangles = uint64_t{1} << 40;  // all parts have a number
-constexpr int kMinImageSize = 16;
-constexpr int kMaxImageSize = 1024;
 
 std::string text(const CellKey& key) { return fmt::format("level {} ({}, {}, {})", key.level, key.x, key.y, key.z); }
 
 std::string text(const GridBox& box) {
   return fmt::format("({}, {}, {}) to ({}, {}, {})", box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
 }
+
+constexpr const char* kForms = "a set of viewpoints and an image size of 16 to 1024, a power of two";
+
+std::string text(const ViewForm& form) { return fmt::format("{} views of {} texels", form.views, form.imageSize); }
 
 bool contains(const GridBox& outer, const GridBox& inner) {
   for (int axis = 0; axis < 3; ++axis)
@@ -81,10 +83,9 @@ class Checker {
 
   Result<> settings() const {
     const BuildSettings& s = directory_.model.settings;
-    if (const auto views = Viewpoints::create(s.views); !views)
-      return wrongModel("possible settings", views.error().message);
-    if (s.imageSize < kMinImageSize || s.imageSize > kMaxImageSize || !std::has_single_bit(unsigned(s.imageSize)))
-      return wrongModel("an image size of 16 to 1024, a power of two", fmt::format("{}", s.imageSize));
+    if (!isViewForm(s.form)) return wrongModel(kForms, text(s.form));
+    if (s.forms > Forms::chosen)
+      return wrongModel("forms of 0 or 1", fmt::format("{}", static_cast<uint32_t>(s.forms)));
     if (s.samples != 1 && s.samples != 4 && s.samples != 16 && s.samples != 64)
       return wrongModel("1, 4, 16 or 64 samples", fmt::format("{}", s.samples));
     if (s.leafTriangles < 1) return wrongModel("at least 1 triangle a leaf", fmt::format("{}", s.leafTriangles));
@@ -164,6 +165,7 @@ class Checker {
     FARCELL_TRY(mesh(i));
     const CellRecord& cell = directory_.cells[i];
     const uint64_t pageCount = directory_.pages.size();
+    FARCELL_TRY(form(i));
     const bool hasViews = cell.viewPageCount > 0;
     if (hasViews != (cell.firstViewPage != kNone) ||
         (hasViews && uint64_t{cell.firstViewPage} + cell.viewPageCount > pageCount))
@@ -173,6 +175,14 @@ class Checker {
       if (!isOf(page, PageKind::views, i)) return wrongCell(i, "pages of its own views", fmt::format("page {}", page));
     FARCELL_TRY(textures(i));
     return errors(i);
+  }
+
+  Result<> form(uint32_t i) const {
+    const ViewForm& form = directory_.cells[i].form;
+    const BuildSettings& settings = directory_.model.settings;
+    if (!isViewForm(form)) return wrongCell(i, kForms, text(form));
+    if (settings.forms == Forms::fixed && form != settings.form) return wrongCell(i, text(settings.form), text(form));
+    return {};
   }
 
   // A leaf's, or all of those of one before it.
@@ -244,8 +254,6 @@ class Checker {
   }
 
   Result<> pages() const {
-    FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory_.model.settings.views));
-    const auto groupCount = static_cast<uint32_t>(viewpoints.groupCount());
     uint64_t offset = kHeaderBytes;
     for (uint32_t i = 0; i < directory_.pages.size(); ++i) {
       const PageRecord& page = directory_.pages[i];
@@ -255,7 +263,7 @@ class Checker {
       const uint64_t mostDecoded = page.storedBytes * kMaxZlibRatio * kMaxWordsRatio;
       if (page.decodedBytes > mostDecoded)
         return wrongPage(i, fmt::format("at most {} decoded bytes", mostDecoded), fmt::format("{}", page.decodedBytes));
-      FARCELL_TRY(owner(i, groupCount));
+      FARCELL_TRY(owner(i));
       offset += page.storedBytes;
     }
     if (offset != directoryOffset_)
@@ -264,7 +272,7 @@ class Checker {
   }
 
   // The page is of a known kind and its cell names it.
-  Result<> owner(uint32_t i, uint32_t groupCount) const {
+  Result<> owner(uint32_t i) const {
     const PageRecord& page = directory_.pages[i];
     if (page.cell >= directory_.cells.size())
       return wrongPage(i, fmt::format("a cell below {}", directory_.cells.size()), fmt::format("{}", page.cell));
@@ -274,6 +282,7 @@ class Checker {
     if (page.kind != PageKind::views)
       return wrongPage(i, "kind 1, 2 or 3", fmt::format("{}", static_cast<uint32_t>(page.kind)));
     FARCELL_TRY(among(i, "views", cell.firstViewPage, cell.viewPageCount));
+    const auto groupCount = static_cast<uint32_t>(Viewpoints::of(cell.form.views).groupCount());
     const bool rising = i == cell.firstViewPage || directory_.pages[i - 1].group < page.group;
     if (page.group >= groupCount || !rising)
       return wrongPage(i, fmt::format("a rising group below {}", groupCount), fmt::format("{}", page.group));

@@ -26,7 +26,7 @@ GridBox readBox(ByteReader& in) {
 }
 
 void write(ByteWriter& out, const BuildSettings& settings) {
-  for (const int value : {settings.views, settings.imageSize, settings.samples, settings.leafTriangles,
+  for (const int value : {settings.form.views, settings.form.imageSize, settings.samples, settings.leafTriangles,
                           settings.maxLevel, settings.fixedLevel})
     out.i32(value);
   out.u32(static_cast<uint32_t>(settings.up));
@@ -35,7 +35,8 @@ void write(ByteWriter& out, const BuildSettings& settings) {
   out.u16(static_cast<uint16_t>(settings.viewError));
   out.f64(settings.metresPerUnit);
   out.u32(static_cast<uint32_t>(settings.simplifier));
-  out.u32(static_cast<uint32_t>(settings.budgetRule));
+  out.u16(static_cast<uint16_t>(settings.budgetRule));
+  out.u16(static_cast<uint16_t>(settings.forms));
   out.u64(settings.packBudgetBytes);
   out.u64(settings.visitableHash);
   out.f64(settings.sun.azimuthRad);
@@ -44,7 +45,7 @@ void write(ByteWriter& out, const BuildSettings& settings) {
 
 BuildSettings readSettings(ByteReader& in) {
   BuildSettings settings;
-  for (int* value : {&settings.views, &settings.imageSize, &settings.samples, &settings.leafTriangles,
+  for (int* value : {&settings.form.views, &settings.form.imageSize, &settings.samples, &settings.leafTriangles,
                      &settings.maxLevel, &settings.fixedLevel})
     *value = in.i32();
   settings.up = static_cast<UpAxis>(in.u32());
@@ -53,7 +54,8 @@ BuildSettings readSettings(ByteReader& in) {
   settings.viewError = in.u16();
   settings.metresPerUnit = in.f64();
   settings.simplifier = static_cast<Simplifier>(in.u32());
-  settings.budgetRule = static_cast<BudgetRule>(in.u32());
+  settings.budgetRule = static_cast<BudgetRule>(in.u16());
+  settings.forms = static_cast<Forms>(in.u16());
   settings.packBudgetBytes = in.u64();
   settings.visitableHash = in.u64();
   settings.sun.azimuthRad = in.f64();
@@ -140,6 +142,8 @@ void write(ByteWriter& out, const CellRecord& cell) {
   out.f64(cell.geometricError);
   for (const auto& way : cell.errors.codes)
     for (const uint8_t code : way) out.u8(code);
+  out.u16(static_cast<uint16_t>(cell.form.views));
+  out.u16(static_cast<uint16_t>(cell.form.imageSize));
 }
 
 CellRecord readCell(ByteReader& in) {
@@ -154,6 +158,8 @@ CellRecord readCell(ByteReader& in) {
   cell.geometricError = in.f64();
   for (auto& way : cell.errors.codes)
     for (uint8_t& code : way) code = in.u8();
+  cell.form.views = in.u16();
+  cell.form.imageSize = in.u16();
   return cell;
 }
 

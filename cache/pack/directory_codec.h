@@ -12,7 +12,7 @@
 
 namespace farcell {
 
-inline constexpr uint64_t kCellRecordBytes = 112;
+inline constexpr uint64_t kCellRecordBytes = 116;
 inline constexpr uint64_t kPageRecordBytes = 40;
 inline constexpr size_t kMaxNameBytes = 255;  // of the source's name and of a reason's
 inline constexpr uint32_t kMaxReasons = 256;

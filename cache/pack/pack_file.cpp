@@ -117,8 +117,7 @@ Result<> checkDecodedSize(uint32_t expectedBytes, uint32_t foundBytes) {
 Result<PackFile> PackFile::open(const std::filesystem::path& path) {
   FARCELL_ASSIGN(InputFile file, InputFile::open(path));
   FARCELL_ASSIGN(Directory directory, readDirectory(file));
-  FARCELL_ASSIGN(Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
-  return PackFile(std::move(file), std::move(directory), std::move(viewpoints));
+  return PackFile(std::move(file), std::move(directory));
 }
 
 Result<std::vector<std::byte>> PackFile::readStored(uint32_t page) const {
@@ -147,16 +146,19 @@ Result<GeometryPage> PackFile::readGeometry(uint32_t page) const {
   return decoded;
 }
 
+ViewLimits PackFile::viewLimits(uint32_t page) const {
+  const PageRecord& record = directory_.pages[page];
+  return viewLimitsOf(directory_.cells[record.cell].form, record.decodedBytes);
+}
+
 Result<ViewPage> PackFile::readViews(uint32_t page) const {
   FARCELL_ASSIGN(const std::vector<std::byte> bytes, readStored(page));
   const PageRecord& record = directory_.pages[page];
   FARCELL_CHECK(record.kind == PageKind::views);
-  const ViewLimits limits{static_cast<uint32_t>(directory_.model.settings.views),
-                          static_cast<uint32_t>(directory_.model.settings.imageSize), record.decodedBytes};
-  Result<ViewPage> decoded = decodeViewPage(bytes, limits);
+  Result<ViewPage> decoded = decodeViewPage(bytes, viewLimits(page));
   if (!decoded) return inPage(*this, page, decoded.error().message);
   const Result<> checked = checkDecodedSize(record.decodedBytes, decodedSizeBytes(*decoded)).and_then([&] {
-    return checkViews(*decoded, record, directory_.model, viewpoints_);
+    return checkViews(*decoded, record, directory_.model, Viewpoints::of(directory_.cells[record.cell].form.views));
   });
   if (!checked) return inPage(*this, page, checked.error().message);
   return decoded;

@@ -12,7 +12,6 @@
 #include "cache/base/result.h"
 #include "cache/pack/directory.h"
 #include "cache/pack/pages.h"
-#include "cache/schema/viewpoints.h"
 
 namespace farcell {
 
@@ -58,6 +57,8 @@ class PackFile {
   // the result is corrupt.
   Result<GeometryPage> readGeometry(uint32_t page) const;
   Result<ViewPage> readViews(uint32_t page) const;
+  // What a decoder of it may believe.
+  ViewLimits viewLimits(uint32_t page) const;
   Result<TexturePage> readTexture(uint32_t page) const;
   // The pages of the atlas of a part of a leaf's mesh, by group; none where it has no textures.
   std::span<const PageRecord> atlasPages(uint32_t cell, uint32_t part) const;
@@ -70,11 +71,9 @@ class PackFile {
   std::vector<Error> verify(size_t maxFindings, const std::function<void(uint64_t pagesDone)>& progress) const;
 
  private:
-  PackFile(InputFile file, Directory directory, Viewpoints viewpoints)
-      : file_(std::move(file)), directory_(std::move(directory)), viewpoints_(std::move(viewpoints)) {}
+  PackFile(InputFile file, Directory directory) : file_(std::move(file)), directory_(std::move(directory)) {}
   InputFile file_;
   Directory directory_;
-  Viewpoints viewpoints_;
 };
 
 }  // namespace farcell

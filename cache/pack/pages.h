@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cache/base/result.h"
+#include "cache/schema/view_form.h"
 
 namespace farcell {
 
@@ -95,6 +96,9 @@ struct ViewLimits {
   uint32_t imageSize;
   uint64_t maxDecodedBytes;
 };
+inline ViewLimits viewLimitsOf(const ViewForm& form, uint64_t maxDecodedBytes) {
+  return {static_cast<uint32_t>(form.views), static_cast<uint32_t>(form.imageSize), maxDecodedBytes};
+}
 
 // The same triangles in an order of strips, which takes few bytes and draws fast: each triangle keeps its three
 // vertices and its winding but may start at another corner; vertices no triangle uses are dropped. Deterministic.

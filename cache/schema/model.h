@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "cache/schema/grid.h"
+#include "cache/schema/view_form.h"
 
 namespace farcell {
 
@@ -33,6 +34,12 @@ enum class Measure : uint8_t {
   all = 2,
 };
 
+// Of the impostors of cells.
+enum class Forms : uint16_t {
+  fixed = 0,   // all are of the settings' form
+  chosen = 1,  // each cell has its own, by measured error; all views together take no more bytes than of that form
+};
+
 inline constexpr int kMaxViewError = 8;
 
 // What views hold.
@@ -51,8 +58,8 @@ struct Sun {
 
 // Everything that decides a pack's content, besides the input itself.
 struct BuildSettings {
-  int views = 42;             // size of the viewpoint set, see viewpoints.h
-  int imageSize = 128;        // texels along a view's edge: a power of two, 16..1024
+  ViewForm form;
+  Forms forms = Forms::fixed;
   int samples = 16;           // per texel: 1, 4, 16 or 64
   int leafTriangles = 16384;  // a cell of more is split, within maxLevel
   int maxLevel = 12;          // octree depth limit

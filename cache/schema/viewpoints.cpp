@@ -4,12 +4,16 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "cache/base/check.h"
 
 namespace farcell {
 namespace {
+
+constexpr std::array<int, 8> kCounts = {12, 42, 162, 642, 20, 80, 320, 1280};
 
 struct Icosphere {
   std::vector<glm::dvec3> vertices;
@@ -126,6 +130,17 @@ Result<Viewpoints> Viewpoints::create(int count) {
   return fail(ErrorKind::invalidArgument,
               "views: expected one of 12, 42, 162, 642 (vertices) or 20, 80, 320, 1280 (face centres), found {}",
               count);
+}
+
+bool Viewpoints::exists(int count) { return std::find(kCounts.begin(), kCounts.end(), count) != kCounts.end(); }
+
+const Viewpoints& Viewpoints::of(int count) {
+  static std::array<std::once_flag, kCounts.size()> made;
+  static std::array<std::optional<Viewpoints>, kCounts.size()> sets;
+  const auto set = static_cast<size_t>(std::find(kCounts.begin(), kCounts.end(), count) - kCounts.begin());
+  FARCELL_CHECK(set < kCounts.size());
+  std::call_once(made[set], [&] { sets[set] = create(count).value(); });
+  return *sets[set];
 }
 
 void Viewpoints::pairAntipodes() {

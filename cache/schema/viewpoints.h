@@ -17,6 +17,9 @@ class Viewpoints {
  public:
   // count: one of 12, 42, 162, 642, 20, 80, 320, 1280; invalidArgument otherwise.
   static Result<Viewpoints> create(int count);
+  static bool exists(int count);
+  // That set, made when it is first asked for and kept. REQUIRES: exists(count). Any thread.
+  static const Viewpoints& of(int count);
 
   int count() const { return static_cast<int>(directions_.size()); }
   // Unit vectors from the cell's centre to the viewer, world axes. Their order is part of the pack format.

@@ -35,14 +35,15 @@ class Assembly {
   // Of cells in rising order, each once.
   Result<> views(uint32_t cell) {
     FARCELL_ASSIGN(std::vector<EncodedView> stored, context_.store.views(cell));
-    std::vector<std::vector<EncodedView>> groups(static_cast<size_t>(context_.viewpoints.groupCount()));
+    const Viewpoints& viewpoints = context_.viewpoints(cell);
+    std::vector<std::vector<EncodedView>> groups(static_cast<size_t>(viewpoints.groupCount()));
     auto next = stored.begin();
     for (; cursor_ < costs_.size() && costs_[cursor_].cell == cell; ++cursor_) {
       const ViewCost& cost = costs_[cursor_];
       if (cost.texels == 0) continue;
       FARCELL_CHECK(next != stored.end() && next->view == cost.view);
       if (fates_[cursor_] == ViewFate::kept)
-        groups[static_cast<size_t>(context_.viewpoints.group(static_cast<int>(cost.view)))].push_back(std::move(*next));
+        groups[static_cast<size_t>(viewpoints.group(static_cast<int>(cost.view)))].push_back(std::move(*next));
       ++next;
     }
     for (uint32_t group = 0; group < groups.size(); ++group)

@@ -24,8 +24,8 @@ uint64_t bytesOfTriangle(const BuildContext& context) {
   return 4 * (12 + (context.model.hasNormals ? 3 : 0) + (context.hasTextures ? 7 : 0));
 }
 
-uint64_t bytesOfPair(const BuildSettings& settings) {
-  const auto texels = static_cast<uint64_t>(settings.imageSize) * static_cast<uint64_t>(settings.imageSize);
+uint64_t bytesOfPair(const BuildSettings& settings, const ViewForm& form) {
+  const auto texels = static_cast<uint64_t>(form.imageSize) * static_cast<uint64_t>(form.imageSize);
   const uint64_t sample = settings.lighting == Lighting::relightable ? 24 : 16;
   // The samples; a view and its antipode as floats, as bytes, and while they are coded.
   return texels * (static_cast<uint64_t>(settings.samples) * sample + 2 * 64);
@@ -37,21 +37,23 @@ class Batch {
       : context_(context),
         batch_(batch),
         textures_(textures),
+        viewpoints_(context.viewpoints(batch.cell)),
         source_(context.model, context.tree, context.partition),
         leaves_(source_.leavesInside(batch.cell)) {
-    const std::vector<int> leaders = pairLeaders(context.viewpoints);
+    const std::vector<int> leaders = pairLeaders(viewpoints_);
     for (uint32_t pair = batch.firstPair; pair < batch.firstPair + batch.pairCount; ++pair) {
-      const int view = leaders[pair], antipode = context.viewpoints.antipode(view);
+      const int view = leaders[pair], antipode = viewpoints_.antipode(view);
       if (context.wanted(batch.cell, view) || context.wanted(batch.cell, antipode)) pairs_.push_back(view);
     }
     const BuildSettings& settings = context.model.settings;
-    settings_ = {settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
+    settings_ = {context.form(batch.cell).imageSize, settings.samples, sunDirection(settings.up, settings.sun),
                  settings.lighting == Lighting::relightable};
   }
 
   Result<> gathered() {
     const uint64_t triangles = context_.tree.cells[batch_.cell].triangles;
-    const uint64_t bytes = 2 * triangles * bytesOfTriangle(context_) + bytesOfPair(context_.model.settings);
+    const uint64_t bytes =
+        2 * triangles * bytesOfTriangle(context_) + bytesOfPair(context_.model.settings, context_.form(batch_.cell));
     FARCELL_ASSIGN(const MemoryGate::Share share, context_.gate.take(bytes, "baking a view"));
     CellSoup soup;
     {
@@ -75,7 +77,7 @@ class Batch {
   // As many views at once as there is memory for; the leaves pass again for the next ones.
   Result<> streamed() {
     const uint64_t fixed = 4 * kStreamedSoup * bytesOfTriangle(context_);
-    const uint64_t pair = bytesOfPair(context_.model.settings);
+    const uint64_t pair = bytesOfPair(context_.model.settings, context_.form(batch_.cell));
     const uint64_t room = context_.memoryOfThread > fixed ? context_.memoryOfThread - fixed : 0;
     const size_t atOnce = std::clamp<uint64_t>(room / pair, 1, std::max<size_t>(1, pairs_.size()));
     FARCELL_ASSIGN(const MemoryGate::Share share, context_.gate.take(fixed + atOnce * pair, "baking a view"));
@@ -85,7 +87,7 @@ class Batch {
   }
 
  private:
-  ViewFrame frameOf(int view) const { return viewFrame(context_.viewpoints.directions()[view]); }
+  ViewFrame frameOf(int view) const { return viewFrame(viewpoints_.directions()[view]); }
 
   Result<> stream(std::span<const int> pairs) {
     std::vector<ViewBaker> bakers;
@@ -116,7 +118,7 @@ class Batch {
     }
     const Lap lap(context_.clock.encodeNs);
     encode(front, view);
-    encode(back, context_.viewpoints.antipode(view));
+    encode(back, viewpoints_.antipode(view));
   }
 
   void encode(const BakedView& baked, int view) {
@@ -142,6 +144,7 @@ class Batch {
   const BuildContext& context_;
   const ViewBatch batch_;
   TextureSampler* const textures_;
+  const Viewpoints& viewpoints_;
   const SoupSource source_;
   const std::vector<uint32_t> leaves_;
   BakeSettings settings_;
@@ -156,12 +159,14 @@ bool cheaperAsTriangles(const CellRecord& cell) {
   return cell.childCount == 0 && cell.triangles < kTrianglesCheaperThanView;
 }
 
+bool isBaked(const CellRecord& cell) { return cell.triangles > 0 && !cheaperAsTriangles(cell); }
+
 std::vector<ViewBatch> viewBatches(const BuildContext& context) {
-  const auto pairs = static_cast<uint32_t>(pairLeaders(context.viewpoints).size());
   const auto& cells = context.tree.cells;
   std::vector<ViewBatch> batches;
   for (uint32_t cell = 0; cell < cells.size(); ++cell) {
-    if (cheaperAsTriangles(cells[cell]) || cells[cell].triangles == 0) continue;
+    if (!isBaked(cells[cell])) continue;
+    const auto pairs = static_cast<uint32_t>(context.form(cell).views / 2);
     const uint64_t fit = std::max<uint64_t>(1, kBatchWork / cells[cell].triangles);
     for (uint32_t first = 0; first < pairs; first += static_cast<uint32_t>(std::min<uint64_t>(fit, pairs)))
       batches.push_back({cell, first, static_cast<uint32_t>(std::min<uint64_t>(fit, pairs - first))});

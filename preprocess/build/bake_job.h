@@ -21,6 +21,8 @@ inline constexpr uint64_t kGatherTriangles = 500'000;
 std::vector<ViewBatch> viewBatches(const BuildContext& context);
 // A leaf of so few triangles that it gets no views.
 bool cheaperAsTriangles(const CellRecord& cell);
+// Whether it gets views.
+bool isBaked(const CellRecord& cell);
 
 // Bakes, codes and stores a batch; exhausted when the gate has not the memory for one pair of views. textures: those of
 // the mesh, a sampler of this thread; null when it has none.

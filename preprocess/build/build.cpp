@@ -102,12 +102,23 @@ class Jobs {
     });
   }
 
+  // Before views.
+  Result<> forms() {
+    const std::vector<uint32_t> jobs =
+        own(cellsOfCandidates(context_.tree), [&](uint32_t cell) { return context_.store.hasCandidates(cell); });
+    progress_.begin("measure", jobs.size(), "cells");
+    return run(jobs.size(), [&](size_t job, int thread) -> Result<> {
+      progress_.advance();
+      return measureForms(context_, jobs[job], samplers_[static_cast<size_t>(thread)].get());
+    });
+  }
+
   // After meshes and views.
   Result<> errors() {
     const Measure measure = context_.model.settings.measure;
     if (measure == Measure::off) return {};
-    const std::vector<MeasureJob> jobs = own(measureJobs(context_.tree, measure),
-                                             [&](const MeasureJob& job) { return context_.store.hasErrors(job.cell); });
+    const std::vector<uint32_t> jobs =
+        own(cellsToMeasure(context_.tree, measure), [&](uint32_t cell) { return context_.store.hasErrors(cell); });
     progress_.begin("measure", jobs.size(), "cells");
     return run(jobs.size(), [&](size_t job, int thread) -> Result<> {
       progress_.advance();
@@ -144,19 +155,25 @@ class Jobs {
 }  // namespace
 
 Result<> checkSettings(const BuildSettings& settings) {
-  FARCELL_TRY(Viewpoints::create(settings.views));
+  FARCELL_TRY(Viewpoints::create(settings.form.views));
   const auto range = [](const char* name, int value, int min, int max) -> Result<> {
     if (value >= min && value <= max) return {};
     return fail(ErrorKind::invalidArgument, "{}: expected {} to {}, found {}", name, min, max, value);
   };
-  FARCELL_TRY(range("image-size", settings.imageSize, 16, 1024));
-  if ((settings.imageSize & (settings.imageSize - 1)) != 0)
-    return fail(ErrorKind::invalidArgument, "image-size: expected a power of two, found {}", settings.imageSize);
+  FARCELL_TRY(range("image-size", settings.form.imageSize, 16, 1024));
+  if ((settings.form.imageSize & (settings.form.imageSize - 1)) != 0)
+    return fail(ErrorKind::invalidArgument, "image-size: expected a power of two, found {}", settings.form.imageSize);
   if (settings.samples != 1 && settings.samples != 4 && settings.samples != 16 && settings.samples != 64)
     return fail(ErrorKind::invalidArgument, "samples: expected 1, 4, 16 or 64, found {}", settings.samples);
   FARCELL_TRY(range("leaf-triangles", settings.leafTriangles, 64, 1 << 24));
   FARCELL_TRY(range("max-level", settings.maxLevel, 0, kMaxLevel));
   FARCELL_TRY(range("fixed-level", settings.fixedLevel, -1, settings.maxLevel));
+  const auto of = [&](const auto& some, int value) { return std::find(some.begin(), some.end(), value) != some.end(); };
+  if (settings.forms == Forms::chosen &&
+      !(of(kCandidateViews, settings.form.views) && of(kCandidateSizes, settings.form.imageSize)))
+    return fail(ErrorKind::invalidArgument,
+                "forms: chosen against {} views of {} texels: expected 12, 42, 162 or 642 of 64, 128 or 256",
+                settings.form.views, settings.form.imageSize);
   FARCELL_TRY(range("view-error", settings.viewError, 0, kMaxViewError));
   if (!(settings.metresPerUnit > 0 && std::isfinite(settings.metresPerUnit)))
     return fail(ErrorKind::invalidArgument, "unit: expected a positive length, found {} m", settings.metresPerUnit);
@@ -331,6 +348,7 @@ class Build {
 
   void describe(Directory& directory) {
     tree_ = cellTreeOf(partition_->leaves, partition_->triangles);
+    for (CellRecord& cell : tree_.cells) cell.form = settings_.form;
     result_.textures = {textures_->count() - textures_->leftOut().size(), textures_->leftOut()};
     directory.sourceName = meshes_[0].filename().string();
     directory.model = {
@@ -344,18 +362,14 @@ class Build {
 
   Result<> work() {
     const Directory& directory = result_.directory;
-    FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(settings_.views));
-    const auto views = static_cast<uint32_t>(settings_.views);
-    const auto imageSize = static_cast<uint32_t>(settings_.imageSize);
-    FARCELL_ASSIGN(store_, CellStore::open(workPath_, crew_.rank(), {views, imageSize, UINT64_MAX}));
+    FARCELL_ASSIGN(store_, CellStore::open(workPath_, crew_.rank()));
     const auto start = std::chrono::steady_clock::now();
     MemoryGate gate(jobMemory());
     WorkClock clock;
-    const std::vector<ViewMask> seen = seenViews(viewpoints);
+    std::vector<ViewMask> seen;
     const BuildContext context{directory.model,
                                tree_,
                                *partition_,
-                               viewpoints,
                                seen,
                                textures_->count() > 0,
                                *store_,
@@ -365,6 +379,11 @@ class Build {
     const Samplers samplers = samplersOf(*textures_, threads_);
     Jobs jobs(context, samplers, threads_, crew_, progress_);
     FARCELL_TRY(jobs.meshes());
+    if (settings_.forms == Forms::chosen) {
+      FARCELL_TRY(jobs.forms());
+      chooseForms();
+    }
+    seen = seenViews();
     FARCELL_TRY(jobs.views());
     FARCELL_TRY(jobs.errors());
     shareTime(clock, secondsSince(start));
@@ -372,12 +391,26 @@ class Build {
     return {};
   }
 
+  // The same in all processes.
+  void chooseForms() {
+    std::vector<bool> baked;
+    for (const CellRecord& cell : tree_.cells) baked.push_back(isBaked(cell));
+    result_.measured.forms = farcell::chooseForms(result_.directory.model, tree_.cells, baked, store_->candidates());
+    for (const KindForms& kind : result_.measured.forms.kinds)
+      for (size_t cell = 0; cell < tree_.cells.size(); ++cell)
+        if (kindOf(tree_.cells[cell]) == kind.kind)
+          tree_.cells[cell].form = result_.directory.cells[cell].form = candidateForm(kind.chosen);
+  }
+
   // Empty when visitors may be anywhere.
-  std::vector<ViewMask> seenViews(const Viewpoints& viewpoints) const {
+  std::vector<ViewMask> seenViews() const {
     if (region_.kind == Region::Kind::everywhere) return {};
-    const Visitable visitable(region_, result_.directory.model, tree_.cells, viewpoints);
+    std::map<int, Visitable> sets;
+    for (const CellRecord& cell : tree_.cells)
+      sets.try_emplace(cell.form.views, region_, result_.directory.model, tree_.cells, Viewpoints::of(cell.form.views));
     std::vector<ViewMask> seen(tree_.cells.size());
-    parallelFor(seen.size(), threads_, [&](size_t cell, int) { seen[cell] = visitable.seen(tree_.cells[cell]); });
+    parallelFor(seen.size(), threads_,
+                [&](size_t cell, int) { seen[cell] = sets.at(tree_.cells[cell].form.views).seen(tree_.cells[cell]); });
     return seen;
   }
 
@@ -386,8 +419,9 @@ class Build {
     constexpr uint64_t kProgram = uint64_t{48} << 20;
     constexpr uint64_t kTablesOfView = 2 * sizeof(ViewCost);
     const uint64_t cells = tree_.cells.size();
-    const uint64_t tables = cells * (6 * sizeof(CellRecord) + 8 * sizeof(PageRecord) +
-                                     static_cast<uint64_t>(settings_.views) * kTablesOfView);
+    uint64_t views = 0;
+    for (const CellRecord& cell : tree_.cells) views += static_cast<uint64_t>(cell.form.views);
+    const uint64_t tables = cells * (6 * sizeof(CellRecord) + 8 * sizeof(PageRecord)) + views * kTablesOfView;
     return options_.memoryBytes > kProgram + tables ? options_.memoryBytes - kProgram - tables : 0;
   }
 
@@ -418,8 +452,7 @@ class Build {
     ChooseSettings settings;
     settings.rule = settings_.budgetRule;
     if (settings_.packBudgetBytes > 0) settings.packBudgetBytes = settings_.packBudgetBytes;
-    FARCELL_ASSIGN(const Choice choice,
-                   chooseViews({context.viewpoints, directory.cells, geometryBytes, views}, settings));
+    FARCELL_ASSIGN(const Choice choice, chooseViews({directory.cells, geometryBytes, views}, settings));
     report(choice, views.size(), directory.report);
     FARCELL_ASSIGN(result_.packBytes, assemblePack(context, pack_, views, choice.views, directory, progress_));
     progress_.end();
@@ -431,7 +464,9 @@ class Build {
     const ExpectedErrors expected =
         expectErrors(directory.model, directory.cells, viewFigures(directory.cells.size(), views), measured);
     for (size_t cell = 0; cell < directory.cells.size(); ++cell) directory.cells[cell].errors = expected.tables[cell];
-    result_.measured = {measured.size(), expected.unit, expected.apart, expected.alternatives};
+    result_.measured.cells = measured.size();
+    result_.measured.unit = expected.unit;
+    result_.measured.apart = expected.apart;
   }
 
   void report(const Choice& choice, uint64_t viewsBaked, BuildReport& report) const {
@@ -443,7 +478,7 @@ class Build {
     };
     LeftOutCount triangles;  // never baked
     for (const CellRecord& cell : tree_.cells)
-      if (cheaperAsTriangles(cell)) triangles.views += static_cast<uint64_t>(settings_.views);
+      if (cheaperAsTriangles(cell)) triangles.views += static_cast<uint64_t>(cell.form.views);
     leftOut(nameOf(ViewFate::cheaperAsTriangles), triangles);
     for (size_t fate = 0; fate < kViewFates; ++fate) {
       LeftOutCount count = choice.counts[fate];

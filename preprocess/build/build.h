@@ -17,6 +17,7 @@
 #include "cache/base/result.h"
 #include "cache/pack/directory.h"
 #include "preprocess/build/crew.h"
+#include "preprocess/measure/choose_forms.h"
 #include "preprocess/measure/expect_errors.h"
 
 namespace farcell {
@@ -52,7 +53,7 @@ struct MeasureReport {
   uint64_t cells = 0;
   double unit = 0;  // ErrorTable's 1
   std::array<std::array<ExpectedApart, kErrorScales>, kErrorWays> apart{};
-  std::array<std::array<AlternativeMean, kAlternativeSizes.size()>, kAlternativeViews.size()> alternatives{};
+  ChosenForms forms;  // of Forms::chosen
 };
 
 struct BuildResult {

@@ -43,7 +43,6 @@ struct BuildContext {
   const Model& model;
   const CellTree& tree;
   const Partition& partition;
-  const Viewpoints& viewpoints;
   const std::vector<ViewMask>& seen;  // by cell, the views that a visitor can get; empty: all
   bool hasTextures;
   CellStore& store;
@@ -51,6 +50,8 @@ struct BuildContext {
   uint64_t memoryOfThread;  // share of the gate that one thread should stay within, where it has the choice
   WorkClock& clock;
 
+  const ViewForm& form(uint32_t cell) const { return tree.cells[cell].form; }
+  const Viewpoints& viewpoints(uint32_t cell) const { return Viewpoints::of(form(cell).views); }
   bool wanted(uint32_t cell, int view) const { return seen.empty() || seen[cell][static_cast<size_t>(view)]; }
 };
 

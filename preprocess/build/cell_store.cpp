@@ -12,29 +12,37 @@ namespace {
 uint64_t idOf(uint32_t cell, uint32_t what) { return uint64_t{cell} << 32 | what; }
 uint64_t idOf(const ViewBatch& batch) { return idOf(batch.cell, batch.firstPair); }
 
+// What checksums cover is ours: of any form.
+constexpr ViewLimits kStoredViews = {1280, kMaxImageSize, UINT64_MAX};
+
 // In the order of the journal.
-template <class Visit>
-void forEachNumber(CellErrors& errors, const Visit& visit) {
-  const auto both = [&](ErrorSum& sum) {
+template <size_t size, class Visit>
+void forEachNumber(std::array<ErrorSum, size>& sums, const Visit& visit) {
+  for (ErrorSum& sum : sums) {
     visit(sum.error);
     visit(sum.covered);
-  };
-  for (ErrorSum& sum : errors.single) both(sum);
-  for (auto& way : errors.ways)
-    for (ErrorSum& sum : way) both(sum);
-  for (auto& set : errors.alternatives)
-    for (Alternative& alternative : set) {
-      both(alternative.depthCorrected);
-      both(alternative.blended);
-      visit(alternative.bytes);
-    }
+  }
+}
+template <class Visit>
+void forEachNumber(CellErrors& errors, const Visit& visit) {
+  forEachNumber(errors.single, visit);
+  for (auto& way : errors.ways) forEachNumber(way, visit);
+}
+template <class Visit>
+void forEachNumber(CellCandidates& candidates, const Visit& visit) {
+  forEachNumber(candidates.single, visit);
+  forEachNumber(candidates.triangles, visit);
+  for (CandidateErrors& form : candidates.forms) {
+    forEachNumber(form.depthCorrected, visit);
+    forEachNumber(form.blended, visit);
+    visit(form.bytes);
+  }
 }
 
 }  // namespace
 
-Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& workDirectory, uint32_t writer,
-                                                   const ViewLimits& limits) {
-  std::unique_ptr<CellStore> store(new CellStore(limits));
+Result<std::unique_ptr<CellStore>> CellStore::open(const std::filesystem::path& workDirectory, uint32_t writer) {
+  std::unique_ptr<CellStore> store(new CellStore);
   CellStore* const raw = store.get();
   FARCELL_ASSIGN(Journal journal, Journal::open(workDirectory, writer,
                                                 [raw](const JournalRecord& record, std::span<const std::byte> head,
@@ -88,6 +96,12 @@ Result<> CellStore::addErrors(uint32_t cell, CellErrors errors) {
   return journal_->add({static_cast<uint32_t>(Kind::errors), cell}, head.bytes, {});
 }
 
+Result<> CellStore::addCandidates(uint32_t cell, CellCandidates candidates) {
+  ByteWriter head;
+  forEachNumber(candidates, [&](double number) { head.f64(number); });
+  return journal_->add({static_cast<uint32_t>(Kind::candidates), cell}, head.bytes, {});
+}
+
 // A head of the wrong size is not ours and says nothing: its checksum was right, so no crash made it.
 void CellStore::found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place) {
   const std::lock_guard lock(mutex_);
@@ -109,6 +123,8 @@ void CellStore::found(const JournalRecord& record, std::span<const std::byte> he
     foundViews(static_cast<uint32_t>(record.id >> 32), head);
   } else if (record.kind == static_cast<uint32_t>(Kind::errors)) {
     foundErrors(static_cast<uint32_t>(record.id), head);
+  } else if (record.kind == static_cast<uint32_t>(Kind::candidates)) {
+    foundCandidates(static_cast<uint32_t>(record.id), head);
   }
 }
 
@@ -130,6 +146,13 @@ void CellStore::foundErrors(uint32_t cell, std::span<const std::byte> head) {
   ByteReader in(head);
   forEachNumber(errors, [&](double& number) { number = in.f64(); });
   errors_.emplace(cell, errors);
+}
+
+void CellStore::foundCandidates(uint32_t cell, std::span<const std::byte> head) {
+  CellCandidates candidates;
+  ByteReader in(head);
+  forEachNumber(candidates, [&](double& number) { number = in.f64(); });
+  candidates_.emplace(cell, candidates);
 }
 
 bool CellStore::hasMesh(uint32_t cell) const {
@@ -199,7 +222,7 @@ Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {
   std::vector<EncodedView> views;
   for (const JournalPlace& place : places) {
     FARCELL_ASSIGN(const std::vector<std::byte> body, journal_->read(place));
-    FARCELL_ASSIGN(std::vector<EncodedView> batch, viewsOfPage(body, limits_));
+    FARCELL_ASSIGN(std::vector<EncodedView> batch, viewsOfPage(body, kStoredViews));
     std::move(batch.begin(), batch.end(), std::back_inserter(views));
   }
   std::sort(views.begin(), views.end(), [](const EncodedView& a, const EncodedView& b) { return a.view < b.view; });
@@ -209,6 +232,16 @@ Result<std::vector<EncodedView>> CellStore::views(uint32_t cell) const {
 bool CellStore::hasErrors(uint32_t cell) const {
   const std::lock_guard lock(mutex_);
   return errors_.count(cell) > 0;
+}
+
+bool CellStore::hasCandidates(uint32_t cell) const {
+  const std::lock_guard lock(mutex_);
+  return candidates_.count(cell) > 0;
+}
+
+std::map<uint32_t, CellCandidates> CellStore::candidates() const {
+  const std::lock_guard lock(mutex_);
+  return candidates_;
 }
 
 std::map<uint32_t, CellErrors> CellStore::errors() const {

@@ -11,7 +11,7 @@
 #include "cache/pack/encoded_view.h"
 #include "preprocess/build/journal.h"
 #include "preprocess/choose/choose.h"
-#include "preprocess/measure/measure_cell.h"
+#include "preprocess/measure/candidates.h"
 
 namespace farcell {
 
@@ -38,9 +38,8 @@ struct ViewBatch {
 
 class CellStore {
  public:
-  // `writer`: the number of this process. `limits`: of the views that may be found.
-  static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer,
-                                                 const ViewLimits& limits);
+  // `writer`: the number of this process.
+  static Result<std::unique_ptr<CellStore>> open(const std::filesystem::path& workDirectory, uint32_t writer);
 
   // Any thread. Of a part, mesh or batch that is there already the first stays: both are the same.
   // A mesh goes in part by part, however many it has, and is there once its figures are.
@@ -53,8 +52,10 @@ class CellStore {
   // baked: what became of each view of the batch that is wanted; views: those that are not empty, by rising view.
   Result<> add(const ViewBatch& batch, std::span<const ViewCost> baked, std::span<const EncodedView> views);
   Result<> addErrors(uint32_t cell, CellErrors errors);
+  Result<> addCandidates(uint32_t cell, CellCandidates candidates);
   bool hasMesh(uint32_t cell) const;
   bool hasErrors(uint32_t cell) const;
+  bool hasCandidates(uint32_t cell) const;
   bool has(const ViewBatch& batch) const;
   MeshFigures meshFigures(uint32_t cell) const;                    // REQUIRES: hasMesh
   Result<CodedPart> part(uint32_t cell, uint32_t part) const;      // REQUIRES: hasMesh, part < meshFigures(cell).parts
@@ -69,23 +70,25 @@ class CellStore {
   Result<> refresh() { return journal_->refresh(); }
   // Of all views that were baked, by cell, then view. Call it when nothing is added any more.
   std::vector<ViewCost> viewCosts() const;
-  std::map<uint32_t, CellErrors> errors() const;  // of the cells that were measured
+  // Of the cells that were measured.
+  std::map<uint32_t, CellErrors> errors() const;
+  std::map<uint32_t, CellCandidates> candidates() const;
 
  private:
-  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3, errors = 4, coloured = 5, texture = 6 };
+  enum class Kind : uint32_t { part = 1, mesh = 2, views = 3, errors = 4, coloured = 5, texture = 6, candidates = 7 };
   struct StoredPart {
     uint32_t decodedBytes = 0;
     JournalPlace place;
   };
 
-  explicit CellStore(const ViewLimits& limits) : limits_(limits) {}
+  CellStore() = default;
   Result<> addPart(Kind kind, uint32_t cell, uint32_t part, const CodedPart& coded);
   Result<CodedPart> read(const StoredPart& stored) const;
   void found(const JournalRecord& record, std::span<const std::byte> head, const JournalPlace& place);
   void foundViews(uint32_t cell, std::span<const std::byte> head);
   void foundErrors(uint32_t cell, std::span<const std::byte> head);
+  void foundCandidates(uint32_t cell, std::span<const std::byte> head);
 
-  const ViewLimits limits_;
   mutable std::mutex mutex_;
   // Guarded by mutex_ while something is added:
   std::map<uint64_t, StoredPart> parts_;  // by cell, then part
@@ -95,6 +98,7 @@ class CellStore {
   std::map<uint64_t, JournalPlace> batches_;  // by cell, then first pair
   std::vector<ViewCost> views_;
   std::map<uint32_t, CellErrors> errors_;
+  std::map<uint32_t, CellCandidates> candidates_;
   std::unique_ptr<Journal> journal_;  // the last: its sink fills the others
 };
 

@@ -1,6 +1,7 @@
 #include "preprocess/build/measure_job.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "cache/base/interrupt.h"
@@ -89,14 +90,17 @@ LocalBox contentOf(const BuildContext& context, const CellRecord& cell) {
           glm::vec3((glm::dvec3(cell.content.max) - centre) / half)};
 }
 
+constexpr const char* kMeasuring = "measuring a cell";
+
 // Three soups; the finest picture's samples, and a few pictures with views as images and as floats.
-uint64_t bytesOfMeasuring(const BuildContext& context, uint64_t triangles) {
+uint64_t bytesOfMeasuring(const BuildContext& context, uint32_t cell) {
+  const uint64_t triangles = context.tree.cells[cell].triangles;
   constexpr uint64_t kEdge = kMaxMeasuredEdge;
+  constexpr uint64_t kMeasuredViews = 3 * 2 * 3 * kCandidateViews.size();  // that are held at once, at most
   const uint64_t triangle = 4 * (12 + (context.model.hasNormals ? 3 : 0) + (context.hasTextures ? 7 : 0));
   const uint64_t samples = std::max(16, context.model.settings.samples);
   return (context.hasTextures ? kAtlasBytes : 0) + 5 * triangles * triangle +
-         kEdge * kEdge * (16 * samples + 40 + 8 * 16) +
-         static_cast<uint64_t>(context.model.settings.views) * kEdge * kEdge / 4;
+         kEdge * kEdge * (16 * samples + 40 + 8 * 16) + kMeasuredViews * kEdge * kEdge / 4;
 }
 
 // The views of a cell as its pack will hold them; those that visitors never get are baked now.
@@ -111,28 +115,27 @@ class StoredViews {
   }
 
   Result<ViewImage> operator()(int view) const {
-    const BuildSettings& settings = context_.model.settings;
     if (!context_.wanted(cell_, view)) return baked(view);
     const auto number = static_cast<uint32_t>(view);
     const auto found = std::find_if(views_.begin(), views_.end(), [&](const auto& v) { return v.view == number; });
     if (found == views_.end()) return ViewImage{.view = number, .rgba = {}, .depth = {}, .normal = {}};
     const std::vector<std::byte> page = viewPageOf(std::span(&*found, 1)).bytes;
-    FARCELL_ASSIGN(ViewPage decoded, decodeViewPage(page, {static_cast<uint32_t>(settings.views),
-                                                           static_cast<uint32_t>(settings.imageSize), UINT64_MAX}));
+    FARCELL_ASSIGN(ViewPage decoded, decodeViewPage(page, viewLimitsOf(context_.form(cell_), UINT64_MAX)));
     return std::move(decoded.views.at(0));
   }
 
  private:
   ViewImage baked(int view) const {
     const BuildSettings& settings = context_.model.settings;
-    ViewBaker baker({settings.imageSize, settings.samples, sunDirection(settings.up, settings.sun),
+    const int imageSize = context_.form(cell_).imageSize;
+    ViewBaker baker({imageSize, settings.samples, sunDirection(settings.up, settings.sun),
                      settings.lighting == Lighting::relightable},
                     textures_);
     BakedView front, back;
-    baker.begin(viewFrame(context_.viewpoints.directions()[static_cast<size_t>(view)]));
+    baker.begin(viewFrame(context_.viewpoints(cell_).directions()[static_cast<size_t>(view)]));
     baker.add(grown_);
     baker.finish(front, back);
-    return quantisedView(front, static_cast<uint32_t>(view), settings.imageSize);
+    return quantisedView(front, static_cast<uint32_t>(view), imageSize);
   }
 
   const BuildContext& context_;
@@ -142,52 +145,97 @@ class StoredViews {
   std::vector<EncodedView> views_;
 };
 
-}  // namespace
+struct Triangles {
+  CellSoup grown, alone;
+};
 
-std::vector<MeasureJob> measureJobs(const CellTree& tree, Measure measure) {
+Result<Triangles> trianglesOf(const BuildContext& context, uint32_t cell) {
+  const SoupSource source(context.model, context.tree, context.partition);
+  FARCELL_ASSIGN(CellSoup grown, soupOf(source, cell, source.leavesInside(cell)));
+  FARCELL_ASSIGN(CellSoup alone, soupOf(source, cell, source.leavesBelow(cell)));
+  return Triangles{std::move(grown), std::move(alone)};
+}
+
+// By level, then triangles: those that have views and are not too large.
+std::vector<uint32_t> measurable(const CellTree& tree) {
   const auto& cells = tree.cells;
   std::vector<uint32_t> eligible;
   for (uint32_t cell = 0; cell < cells.size(); ++cell)
-    if (cells[cell].triangles > 0 && cells[cell].triangles <= kMaxMeasuredTriangles && !cheaperAsTriangles(cells[cell]))
-      eligible.push_back(cell);
+    if (isBaked(cells[cell]) && cells[cell].triangles <= kMaxMeasuredTriangles) eligible.push_back(cell);
   std::stable_sort(eligible.begin(), eligible.end(), [&](uint32_t a, uint32_t b) {
     if (cells[a].key.level != cells[b].key.level) return cells[a].key.level < cells[b].key.level;
     return cells[a].triangles < cells[b].triangles;
   });
-  const size_t sample = std::clamp(cells.size() / 50, std::min(kUsuallyMeasured, cells.size() / 4), kMostMeasured);
-  const size_t wanted = measure == Measure::all ? eligible.size() : std::max(sample, kLeastMeasured);
-  const size_t count = std::min(eligible.size(), wanted);
-  const size_t every = std::max<size_t>(4, (count + kMostAlternatives - 1) / kMostAlternatives);
-  std::vector<MeasureJob> jobs;
-  for (size_t i = 0; i < count; ++i)
-    jobs.push_back({eligible[(2 * i + 1) * eligible.size() / (2 * count)], i % every == 0});
-  return jobs;
+  return eligible;
 }
 
-Result<> measureStored(const BuildContext& context, const MeasureJob& job, TextureSampler* textures) {
+// Evenly.
+std::vector<uint32_t> spread(const std::vector<uint32_t>& cells, size_t count) {
+  std::vector<uint32_t> some;
+  for (size_t i = 0; i < count; ++i) some.push_back(cells[(2 * i + 1) * cells.size() / (2 * count)]);
+  return some;
+}
+
+MeasureSettings settingsOf(const BuildContext& context, uint32_t cell) {
+  const BuildSettings& settings = context.model.settings;
+  return {context.viewpoints(cell), context.form(cell).imageSize,
+          settings.samples,         sunDirection(settings.up, settings.sun),
+          settings.lighting,        settings.viewError};
+}
+
+}  // namespace
+
+std::vector<uint32_t> cellsToMeasure(const CellTree& tree, Measure measure) {
+  std::vector<uint32_t> eligible = measurable(tree);
+  const size_t cells = tree.cells.size();
+  const size_t sample = std::clamp(cells / 50, std::min(kUsuallyMeasured, cells / 4), kMostMeasured);
+  const size_t wanted = measure == Measure::all ? eligible.size() : std::max(sample, kLeastMeasured);
+  return spread(eligible, std::min(eligible.size(), wanted));
+}
+
+std::vector<uint32_t> cellsOfCandidates(const CellTree& tree) {
+  std::map<FormKind, std::vector<uint32_t>> kinds;
+  for (const uint32_t cell : measurable(tree)) kinds[kindOf(tree.cells[cell])].push_back(cell);
+  std::vector<uint32_t> result;
+  for (const auto& [kind, cells] : kinds) {
+    const size_t count = std::clamp(cells.size() / 50, std::min(cells.size(), kLeastCandidates), kMostCandidates);
+    for (const uint32_t cell : spread(cells, count)) result.push_back(cell);
+  }
+  return result;
+}
+
+Result<> measureStored(const BuildContext& context, uint32_t cell, TextureSampler* textures) {
   FARCELL_TRY(checkInterrupt());
-  const uint32_t cell = job.cell;
-  const CellRecord& record = context.tree.cells[cell];
-  FARCELL_ASSIGN(const MemoryGate::Share share,
-                 context.gate.take(bytesOfMeasuring(context, record.triangles), "measuring a cell"));
+  FARCELL_ASSIGN(const MemoryGate::Share share, context.gate.take(bytesOfMeasuring(context, cell), kMeasuring));
   const Lap lap(context.clock.measureNs);
-  const SoupSource source(context.model, context.tree, context.partition);
-  FARCELL_ASSIGN(const CellSoup grown, soupOf(source, cell, source.leavesInside(cell)));
-  FARCELL_ASSIGN(const CellSoup alone, soupOf(source, cell, source.leavesBelow(cell)));
+  FARCELL_ASSIGN(const Triangles triangles, trianglesOf(context, cell));
   std::vector<TexturePage> atlases;
   FARCELL_ASSIGN(const CellSoup mesh, meshSoup(context, cell, atlases));
   AtlasSampler meshTextures(std::move(atlases));
-  StoredViews views(context, cell, grown, textures);
+  StoredViews views(context, cell, triangles.grown, textures);
   FARCELL_TRY(views.load());
-  const BuildSettings& settings = context.model.settings;
-  FARCELL_ASSIGN(const CellErrors errors, measureCell({contentOf(context, record), alone, grown,
-                                                       mesh.size() > 0 ? &mesh : nullptr, textures, &meshTextures},
-                                                      [&](int view) { return views(view); },
-                                                      {context.viewpoints, settings.imageSize, settings.samples,
-                                                       sunDirection(settings.up, settings.sun), settings.lighting,
-                                                       settings.viewError, job.alternatives}));
+  const MeasuredCell what{contentOf(context, context.tree.cells[cell]),
+                          triangles.alone,
+                          triangles.grown,
+                          mesh.size() > 0 ? &mesh : nullptr,
+                          textures,
+                          &meshTextures};
+  FARCELL_ASSIGN(const CellErrors errors, measureCell(
+                                              what, [&](int view) { return views(view); }, settingsOf(context, cell)));
   if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
   return context.store.addErrors(cell, errors);
+}
+
+Result<> measureForms(const BuildContext& context, uint32_t cell, TextureSampler* textures) {
+  FARCELL_TRY(checkInterrupt());
+  FARCELL_ASSIGN(const MemoryGate::Share share, context.gate.take(bytesOfMeasuring(context, cell), kMeasuring));
+  const Lap lap(context.clock.measureNs);
+  FARCELL_ASSIGN(const Triangles triangles, trianglesOf(context, cell));
+  const MeasuredCell what{
+      contentOf(context, context.tree.cells[cell]), triangles.alone, triangles.grown, nullptr, textures, nullptr};
+  FARCELL_ASSIGN(const CellCandidates candidates, measureCandidates(what, settingsOf(context, cell)));
+  if (textures != nullptr && textures->failure()) return tl::unexpected<Error>(*textures->failure());
+  return context.store.addCandidates(cell, candidates);
 }
 
 std::vector<ViewFigures> viewFigures(size_t cells, std::span<const ViewCost> costs) {

@@ -69,16 +69,16 @@ class Chooser {
 };
 
 void Chooser::measureCells() {
-  std::vector<uint64_t> groupBytes(static_cast<size_t>(input_.viewpoints.groupCount()));
   for (size_t begin = 0, end = 0; begin < input_.views.size(); begin = end) {
     const uint32_t cell = input_.views[begin].cell;
     FARCELL_CHECK(cell < input_.cells.size());
-    std::fill(groupBytes.begin(), groupBytes.end(), 0);
+    const Viewpoints& viewpoints = Viewpoints::of(input_.cells[cell].form.views);
+    std::vector<uint64_t> groupBytes(static_cast<size_t>(viewpoints.groupCount()));
     uint64_t texels = 0;
     for (end = begin; end < input_.views.size() && input_.views[end].cell == cell; ++end) {
       const ViewCost& view = input_.views[end];
       if (view.texels == 0) continue;
-      uint64_t& bytes = groupBytes[static_cast<size_t>(input_.viewpoints.group(static_cast<int>(view.view)))];
+      uint64_t& bytes = groupBytes[static_cast<size_t>(viewpoints.group(static_cast<int>(view.view)))];
       bytes += (bytes == 0 ? kViewPageHeaderBytes : 0) + kViewHeaderBytes + view.bytes;
       texels += view.texels;
       cellViews_[cell].bare += kViewHeaderBytes + view.bytes;
@@ -208,9 +208,9 @@ Choice Chooser::choice() const {
     ++result.counts[static_cast<size_t>(fate)].views;
     ++baked[view.cell];
   }
-  const auto all = static_cast<uint32_t>(input_.viewpoints.count());
   for (uint32_t cell = 0; cell < input_.cells.size(); ++cell) {
     const CellViews& views = cellViews_[cell];
+    const auto all = static_cast<uint32_t>(input_.cells[cell].form.views);
     LeftOutCount& unseen = result.counts[static_cast<size_t>(ViewFate::notVisitable)];
     unseen.views += all - baked[cell];
     if (views.count == 0) continue;

@@ -13,7 +13,6 @@
 
 #include "cache/base/result.h"
 #include "cache/pack/directory.h"
-#include "cache/schema/viewpoints.h"
 
 namespace farcell {
 
@@ -43,7 +42,6 @@ struct ViewCost {
 
 // The spans must outlive the call. Of a cell, all views that somebody can get are there.
 struct ChooseInput {
-  const Viewpoints& viewpoints;
   std::span<const CellRecord> cells;        // as a directory has them; pages not looked at
   std::span<const uint32_t> geometryBytes;  // per cell, its pages as stored; 0: none
   std::span<const ViewCost> views;          // by cell, then view, each at most once

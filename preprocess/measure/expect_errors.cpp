@@ -72,20 +72,6 @@ double unitOf(const std::map<uint32_t, CellErrors>& measured) {
   return count > 0 ? std::exp2(sum / static_cast<double>(count)) : 0;
 }
 
-AlternativeMean meanOf(const std::map<uint32_t, CellErrors>& measured, size_t set, size_t size, double unit) {
-  ErrorSum depthCorrected, blended;
-  double bytes = 0, cells = 0;
-  for (const auto& [cell, errors] : measured) {
-    const Alternative& alternative = errors.alternatives[set][size];
-    if (alternative.bytes == 0) continue;
-    ++cells;
-    depthCorrected.add(alternative.depthCorrected);
-    blended.add(alternative.blended);
-    bytes += alternative.bytes;
-  }
-  return {depthCorrected.mean() / unit, blended.mean() / unit, bytes / std::max(cells, 1.0)};
-}
-
 bool has(ErrorWay way, const CellRecord& cell, const ViewFigures& views) {
   return way == ErrorWay::mesh ? cell.meshTriangles > 0 : views.views > 0;
 }
@@ -95,7 +81,7 @@ double logOf(double value) { return std::log2(std::max(value, 1e-9)); }
 }  // namespace
 
 Features featuresOf(const Model& model, const CellRecord& cell, const ViewFigures& views) {
-  const double texel = texelSize(model.settings.imageSize);  // half sides
+  const double texel = texelSize(cell.form.imageSize);  // half sides
   const double halfSide = cellHalfSide(model.grid, cell.key);
   const double covered = std::max(views.coveredTexels, 1.0);
   const glm::dvec3 size = glm::dvec3(cell.content.max - cell.content.min) * (model.grid.step() / halfSide);
@@ -116,9 +102,6 @@ ExpectedErrors expectErrors(const Model& model, std::span<const CellRecord> cell
   result.tables.resize(cells.size());
   result.unit = unitOf(measured);
   if (result.unit <= 0) return result;
-  for (size_t set = 0; set < kAlternativeViews.size(); ++set)
-    for (size_t size = 0; size < kAlternativeSizes.size(); ++size)
-      result.alternatives[set][size] = meanOf(measured, set, size, result.unit);
   std::vector<Features> features;
   for (size_t cell = 0; cell < cells.size(); ++cell) features.push_back(featuresOf(model, cells[cell], views[cell]));
   for (size_t way = 0; way < kErrorWays; ++way) {

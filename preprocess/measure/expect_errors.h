@@ -31,17 +31,10 @@ struct ExpectedApart {
   double ninetieth = 0;  // of a hundred
 };
 
-// Means over the cells that were measured.
-struct AlternativeMean {
-  double depthCorrected = 0, blended = 0;  // as ErrorTable has them
-  double bytes = 0;                        // a cell
-};
-
 struct ExpectedErrors {
   double unit = 0;                 // ErrorTable's 1, |dR| + |dG| + |dB| a pixel
   std::vector<ErrorTable> tables;  // by cell; empty where nothing was measured
   std::array<std::array<ExpectedApart, kErrorScales>, kErrorWays> apart{};
-  std::array<std::array<AlternativeMean, kAlternativeSizes.size()>, kAlternativeViews.size()> alternatives{};
 };
 
 // cells: with meshTriangles and geometricError. views: of each cell. measured: by cell.

@@ -34,28 +34,20 @@ struct MeasureSettings {
   int samples = 16;     // per texel of views
   glm::vec3 sun{0, 0, 1};
   Lighting lighting = Lighting::baked;  // of views
-  int viewError = 0;                    // of alternatives, as BuildSettings::viewError
-  bool alternatives = false;            // are measured too
-};
-
-// What other sets of views would show, and take: where a texel of the settings' own views is half a pixel, along the
-// first direction.
-inline constexpr std::array<int, 4> kAlternativeViews = {12, 42, 162, 642};
-inline constexpr std::array<int, 3> kAlternativeSizes = {64, 128, 256};
-struct Alternative {
-  ErrorSum depthCorrected, blended;
-  double bytes = 0;  // of all views together, coded
+  int viewError = 0;                    // of candidates.h, as BuildSettings::viewError
 };
 
 // Sums over directions, of each way to draw the cell and of full geometry at one sample a pixel.
 struct CellErrors {
   std::array<ErrorSum, kErrorScales> single{};
   std::array<std::array<ErrorSum, kErrorScales>, kErrorWays> ways{};
-  std::array<std::array<Alternative, kAlternativeSizes.size()>, kAlternativeViews.size()> alternatives{};
 };
 
 // Unit, of those seen from the other side as well.
 std::span<const glm::dvec3> measuredDirections();
+
+inline constexpr int kTruthSamples = 16;  // at the finest scale
+inline constexpr int kMeshSamples = 4;
 
 // Pictures of more pixels along an edge are not taken: kErrorTexelPixels beyond stay without covered pixels.
 inline constexpr int kMaxMeasuredEdge = 256;

@@ -17,6 +17,16 @@ Picture pictureOf(const BakedView& baked, int edge) {
   return picture;
 }
 
+PicturePair takePair(const CellSoup& soup, TextureSampler* textures, glm::vec3 sun, glm::dvec3 direction, int edge,
+                     int samples) {
+  ViewBaker baker({edge, samples, sun, false}, textures);
+  BakedView front, back;
+  baker.begin(viewFrame(direction));
+  baker.add(soup);
+  baker.finish(front, back);
+  return {pictureOf(front, edge), pictureOf(back, edge)};
+}
+
 Picture halved(const Picture& picture) {
   FARCELL_CHECK(picture.edge % 2 == 0);
   Picture half(picture.edge / 2);

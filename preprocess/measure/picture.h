@@ -17,6 +17,15 @@ struct Picture {
   std::vector<glm::vec4> rgba;  // [0, 1], premultiplied by coverage; row 0 is the lowest
 };
 
+// From a direction and from its antipode.
+struct PicturePair {
+  Picture front, back;
+  const Picture& side(int i) const { return i == 0 ? front : back; }
+};
+
+// Of lit triangles.
+PicturePair takePair(const CellSoup& soup, TextureSampler* textures, glm::vec3 sun, glm::dvec3 direction, int edge,
+                     int samples);
 Picture pictureOf(const BakedView& baked, int edge);
 // Each pixel the mean of four. REQUIRES: an even edge.
 Picture halved(const Picture& picture);

@@ -25,8 +25,8 @@ SplitRule::Choice SplitRule::choice(uint32_t level, uint64_t triangles) const {
 }
 
 bool SplitRule::finerThanTexels(uint32_t level, uint64_t triangles, double areaSteps2) const {
-  const double texelSteps =
-      texelSize(settings_.imageSize) * 0.5 * static_cast<double>(int64_t{1} << (gridBits_ - static_cast<int>(level)));
+  const double texelSteps = texelSize(settings_.form.imageSize) * 0.5 *
+                            static_cast<double>(int64_t{1} << (gridBits_ - static_cast<int>(level)));
   // Texels that a view of the cell would cover: a surface shows a quarter of its area on average (Cauchy).
   const double coveredTexels = std::max(1.0, areaSteps2 / (4 * texelSteps * texelSteps));
   return static_cast<double>(triangles) > kTrianglesPerTexel * coveredTexels;

@@ -101,22 +101,21 @@ Result<> addViews(PackWriter& writer, const Grid& grid, const Viewpoints& viewpo
 }  // namespace
 
 Result<> writeBallPack(const std::filesystem::path& path) {
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(kViews));
   Directory directory;
   directory.model.grid = gridAround(glm::dvec3(-1), glm::dvec3(1));
-  directory.model.settings.views = kViews;
-  directory.model.settings.imageSize = kImageSize;
+  directory.model.settings.form = {kViews, kImageSize};
   directory.model.hasColours = true;
-  directory.cells.push_back({.key = {}, .firstChild = 1, .childCount = 8, .content = {}});
+  directory.cells.push_back(
+      {.key = {}, .firstChild = 1, .childCount = 8, .content = {}, .form = directory.model.settings.form});
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(path));
   for (uint32_t octant = 0; octant < 8; ++octant) {
-    CellRecord cell{.key = CellKey{}.child(octant), .parent = 0, .content = {}};
+    CellRecord cell{.key = CellKey{}.child(octant), .parent = 0, .content = {}, .form = directory.model.settings.form};
     const GeometryPage page = octantPage(directory.model.grid, octant, cell.content);
     FARCELL_ASSIGN(cell.firstGeometryPage,
                    writer.add(PageKind::geometry, 1 + octant, 0, decodedSizeBytes(page), encodeGeometryPage(page)));
     cell.triangles = cell.meshTriangles = page.indices.size() / 3;
     cell.geometryPageCount = 1;
-    if (octant > 0) FARCELL_TRY(addViews(writer, directory.model.grid, viewpoints, octant, cell));
+    if (octant > 0) FARCELL_TRY(addViews(writer, directory.model.grid, Viewpoints::of(kViews), octant, cell));
     directory.cells[0].content.include(cell.content);
     directory.cells[0].triangles += cell.triangles;
     directory.cells.push_back(cell);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "cache/base/check.h"
 #include "runtime/draw/gpu_mesh.h"
@@ -28,8 +29,18 @@ constexpr double kFinerThanMean = 1.5;
 
 constexpr std::array<const char*, 4> kLookDefines = {"", "SHOW_TINT", "SHOW_DEPTH", "SHOW_NORMALS"};
 
-glm::vec4 unitColour(const std::array<uint8_t, 4>& colour) {
-  return glm::vec4(colour[0], colour[1], colour[2], colour[3]) / 255.0f;
+glm::vec3 rgb(const std::array<uint8_t, 4>& colour) { return glm::vec3(colour[0], colour[1], colour[2]) / 255.0f; }
+
+// One for each size of images, with equal parts of the budget.
+std::map<int, ViewStore> viewStores(const Directory& directory, uint64_t budgetBytes) {
+  std::set<int> sizes;
+  for (const CellRecord& cell : directory.cells)
+    if (cell.viewPageCount > 0) sizes.insert(cell.form.imageSize);
+  std::map<int, ViewStore> stores;
+  for (const int size : sizes)
+    stores.try_emplace(size, size, budgetBytes / sizes.size(),
+                       directory.model.settings.lighting == Lighting::relightable);
+  return stores;
 }
 
 // Which views draw an impostor; kind B's are in order of weight.
@@ -55,21 +66,19 @@ void shareWeights(ImpostorViews& views) {
 
 }  // namespace
 
-Result<FramePainter> FramePainter::create(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes) {
-  FramePainter painter(pack, viewpoints, residentBytes);
+Result<FramePainter> FramePainter::create(const PackFile& pack, uint64_t residentBytes) {
+  FramePainter painter(pack, residentBytes);
   FARCELL_TRY(painter.prepare(Look::picture));
   return painter;
 }
 
-FramePainter::FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes)
+FramePainter::FramePainter(const PackFile& pack, uint64_t residentBytes)
     : pack_(pack),
-      viewpoints_(viewpoints),
       textured_(std::any_of(pack.directory().cells.begin(), pack.directory().cells.end(),
                             [](const CellRecord& cell) { return cell.texturePageCount > 0; })),
       geometry_(textured_ ? residentBytes / 4 : residentBytes / 2, textured_),
       atlases_(residentBytes / 4),
-      views_(pack.directory().model.settings.imageSize, residentBytes / 2,
-             pack.directory().model.settings.lighting == Lighting::relightable),
+      views_(viewStores(pack.directory(), residentBytes / 2)),
       uniforms_(createBuffer()),
       instances_(createBuffer()),
       corners_(createBuffer()),
@@ -257,30 +266,40 @@ void FramePainter::drawPortions(const Frame& frame, Portions& portions) {
 
 Result<> FramePainter::paintImpostors(Frame& frame) {
   const Directory& directory = pack_.directory();
-  std::vector<shared::ImpostorInstance> portion;
-  views_.beginPortion();
+  // A run of impostors whose images are of one size: one draw.
+  std::vector<shared::ImpostorInstance> run;
+  int imageSize = 0;
+  const auto draw = [&] {
+    if (!run.empty()) drawImpostors(run, views_.at(imageSize), frame);
+    run.clear();
+  };
+  const auto beginPortion = [&] {
+    draw();
+    for (auto& [size, store] : views_) store.beginPortion();
+  };
+  beginPortion();
   for (size_t i = frame.cut.entries.size(); i-- > 0;) {
     const CutEntry& entry = frame.cut.entries[i];
     if (entry.representation != Representation::impostor) continue;
     FARCELL_ASSIGN(std::optional<ImpostorViews> views, residentViews(entry, frame.kind, frame.counts));
     if (!views) {
-      drawImpostors(portion, frame);
-      portion.clear();
-      views_.beginPortion();
+      beginPortion();
       FARCELL_ASSIGN(views, residentViews(entry, frame.kind, frame.counts));
       FARCELL_CHECK(views.has_value());
     }
     if (std::all_of(views->begin(), views->end(), [](const DirectedView& view) { return view.view.layer < 0; }))
       continue;
-    portion.push_back(
-        makeImpostorInstance(directory.model, directory.cells[entry.cell], *views, entry.shares, frame.camera));
-    if (!frame.plan.tints.empty()) portion.back().tint = unitColour(frame.plan.tints[i]);
+    const CellRecord& cell = directory.cells[entry.cell];
+    if (cell.form.imageSize != imageSize) draw();
+    imageSize = cell.form.imageSize;
+    run.push_back(makeImpostorInstance(directory.model, cell, *views, entry.shares, frame.camera));
+    if (!frame.plan.tints.empty()) run.back().tint = glm::vec4(rgb(frame.plan.tints[i]), run.back().tint.w);
     if (frame.plan.show == Show::billboards)
-      addBillboard(frame.lines, portion.back(), lineColour(entry.representation, frame.kind));
+      addBillboard(frame.lines, run.back(), lineColour(entry.representation, frame.kind));
     ++frame.counts.impostors;
     for (const DirectedView& view : *views) frame.counts.texels += uint64_t{view.view.width} * view.view.height;
   }
-  drawImpostors(portion, frame);
+  draw();
   return {};
 }
 
@@ -301,14 +320,16 @@ Result<> FramePainter::paintLines(Frame& frame) {
 // Nothing when the views do not fit beside those of this portion.
 Result<std::optional<ImpostorViews>> FramePainter::residentViews(const CutEntry& entry, ImpostorKind kind,
                                                                  PaintCounts& counts) {
+  const ViewForm& form = pack_.directory().cells[entry.cell].form;
+  ViewStore& store = views_.at(form.imageSize);
   ImpostorViews views = viewsOf(entry, kind);
   for (DirectedView& directed : views) {
     if (directed.index == kNone) continue;
-    directed.direction = viewpoints_.directions()[directed.index];
-    const ResidentView* resident = views_.keep(entry.cell, directed.index);
+    directed.direction = Viewpoints::of(form.views).directions()[directed.index];
+    const ResidentView* resident = store.keep(entry.cell, directed.index);
     if (resident == nullptr) {
       FARCELL_ASSIGN(const ViewImage image, readView(entry.cell, directed.index, counts));
-      resident = views_.add(entry.cell, directed.index, image);
+      resident = store.add(entry.cell, directed.index, image);
       if (resident == nullptr) return std::optional<ImpostorViews>{};
     }
     directed.view = *resident;
@@ -317,12 +338,12 @@ Result<std::optional<ImpostorViews>> FramePainter::residentViews(const CutEntry&
   return std::optional<ImpostorViews>{views};
 }
 
-void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame) {
-  if (instances.empty()) return;
+void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const ViewStore& views,
+                                 const Frame& frame) {
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(instances[0])),
                     instances.data(), GL_STREAM_DRAW);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, instances_.name());
-  views_.bind();
+  views.bind();
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
@@ -346,7 +367,7 @@ void FramePainter::drawImpostors(const std::vector<shared::ImpostorInstance>& in
 Result<ViewImage> FramePainter::readView(uint32_t cell, uint32_t view, PaintCounts& counts) const {
   const Directory& directory = pack_.directory();
   const CellRecord& record = directory.cells[cell];
-  const auto group = static_cast<uint32_t>(viewpoints_.group(static_cast<int>(view)));
+  const auto group = static_cast<uint32_t>(Viewpoints::of(record.form.views).group(static_cast<int>(view)));
   for (uint32_t page = record.firstViewPage; page < record.firstViewPage + record.viewPageCount; ++page) {
     if (directory.pages[page].group != group) continue;
     FARCELL_ASSIGN(ViewPage content, pack_.readViews(page));

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <unordered_map>
 
 #include "cache/base/result.h"
 #include "cache/pack/pack_file.h"
-#include "cache/schema/viewpoints.h"
 #include "runtime/draw/atlas_store.h"
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/geometry_store.h"
@@ -29,8 +29,8 @@ struct PaintCounts {
 
 class FramePainter {
  public:
-  // REQUIRES: a current context; `pack` and `viewpoints` outlive the painter.
-  static Result<FramePainter> create(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes);
+  // REQUIRES: a current context; `pack` outlives the painter.
+  static Result<FramePainter> create(const PackFile& pack, uint64_t residentBytes);
 
   // Triangles first, opaque; then the impostors, back to front, over them; then the lines of the plan, which is this
   // cut's.
@@ -54,7 +54,7 @@ class FramePainter {
     PaintCounts& counts;
     std::vector<LineEnd> lines;
   };
-  FramePainter(const PackFile& pack, const Viewpoints& viewpoints, uint64_t residentBytes);
+  FramePainter(const PackFile& pack, uint64_t residentBytes);
   Result<> prepare(Look look);
   Result<Programs> loadPrograms(Look look) const;
   // Pages to be drawn together.
@@ -76,19 +76,19 @@ class FramePainter {
   void drawPortions(const Frame& frame, Portions& portions);
   Result<std::optional<ImpostorViews>> residentViews(const CutEntry& entry, ImpostorKind kind, PaintCounts& counts);
   Result<> paintImpostors(Frame& frame);
-  void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const Frame& frame);
+  void drawImpostors(const std::vector<shared::ImpostorInstance>& instances, const ViewStore& views,
+                     const Frame& frame);
   Result<> paintLines(Frame& frame);
   Result<ViewImage> readView(uint32_t cell, uint32_t view, PaintCounts& counts) const;
 
   const PackFile& pack_;
-  const Viewpoints& viewpoints_;
   std::array<std::optional<Programs>, 4> programs_;  // by look, each made with the first frame that has it
   std::optional<LinePainter> linePainter_;           // likewise
   const bool textured_;                              // some leaf has an atlas
   GeometryStore geometry_;
   AtlasStore atlases_;
   std::unordered_map<uint32_t, double> atlasEdgesPerStep_;  // of pages with an atlas that were resident
-  ViewStore views_;
+  std::map<int, ViewStore> views_;                          // by image size: of the cells of the pack that have views
   GlBuffer uniforms_;
   GlBuffer instances_;
   GlBuffer corners_;    // element indices of a box's faces, then of a rectangle

@@ -13,7 +13,7 @@ glm::vec4 plane(glm::dvec3 axis, double offset) { return glm::vec4(glm::vec3(axi
 
 shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellRecord& cell, const ImpostorViews& views,
                                               uint8_t shares, const FrameCamera& camera) {
-  const double texel = texelSize(model.settings.imageSize);
+  const double texel = texelSize(cell.form.imageSize);
   const GridBox cube = cellBox(model.grid, cell.key);
   const glm::dvec3 centreSteps = glm::dvec3(cube.min + cube.max) * 0.5;
   const double halfSteps = std::ldexp(0.5, model.grid.bits - static_cast<int>(cell.key.level));
@@ -25,7 +25,7 @@ shared::ImpostorInstance makeImpostorInstance(const Model& model, const CellReco
   instance.boxMin = plane((glm::dvec3(cell.content.min) - centreSteps) / halfSteps, texel);
   instance.boxMax = plane((glm::dvec3(cell.content.max) - centreSteps) / halfSteps, shares);
   instance.eye = plane(eye, std::log2(camera.pixelAngle / (texel * halfRootSides)) + shared::kLodBias);
-  instance.tint = glm::vec4(0);
+  instance.tint = glm::vec4(0.0f, 0.0f, 0.0f, static_cast<float>(cell.form.imageSize));
   for (size_t i = 0; i < views.size(); ++i) {
     const DirectedView& directed = views[i];
     instance.views[i] = impostorView(directed.view, directed.direction, directed.weight, eye, texel);

@@ -120,8 +120,7 @@ bool Occlusion::hides(uint32_t index) const {
   const CellRecord& cell = directory_.cells[index];
   const Model& model = directory_.model;
   const double halfSide = std::ldexp(0.5, model.grid.bits - static_cast<int>(cell.key.level));
-  const double viewPad =
-      cell.firstViewPage == kNone ? 0 : kImpostorTexels * texelSize(model.settings.imageSize) * halfSide;
+  const double viewPad = cell.firstViewPage == kNone ? 0 : kImpostorTexels * texelSize(cell.form.imageSize) * halfSide;
   const double pad = std::max(viewPad, kMeshErrors * cell.geometricError / model.grid.step());
   glm::dvec2 min(INFINITY), max(-INFINITY);
   double nearest = 0;

@@ -67,8 +67,8 @@ void merge(const Directory& directory, std::vector<Placed> placed, Cut& cut) {
 
 }  // namespace
 
-Cut selectHandOver(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width,
-                   int height, const SelectionSettings& settings, const HiddenCells* hidden) {
+Cut selectHandOver(const Directory& directory, const Camera& camera, int width, int height,
+                   const SelectionSettings& settings, const HiddenCells* hidden) {
   const Grid& grid = directory.model.grid;
   const glm::dvec3 eyeSteps = (camera.position - grid.origin) / grid.step();
   std::vector<Placed> placed;
@@ -76,7 +76,7 @@ Cut selectHandOver(const Directory& directory, const Viewpoints& viewpoints, con
   double nearestSteps = cut.nearestSteps;
   for (int share = 0; share < kShares; ++share) {
     const SelectionSettings own = settingsOf(share, settings);
-    cut = selectCut(directory, viewpoints, camera, width, height, own, hidden);
+    cut = selectCut(directory, camera, width, height, own, hidden);
     nearestSteps = std::min(nearestSteps, cut.nearestSteps);
     for (CutEntry entry : cut.entries) {
       entry.shares = static_cast<uint8_t>(1u << share);

@@ -14,7 +14,7 @@ namespace farcell {
 // Entries that several shares have in common are one; those of no use to a share lie between, in an order that is front
 // to back for each share. `triangles` is the sum of what is drawn; work, loss and
 // what is hidden are those of one share.
-Cut selectHandOver(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width,
-                   int height, const SelectionSettings& settings, const HiddenCells* hidden = nullptr);
+Cut selectHandOver(const Directory& directory, const Camera& camera, int width, int height,
+                   const SelectionSettings& settings, const HiddenCells* hidden = nullptr);
 
 }  // namespace farcell

@@ -55,15 +55,13 @@ double distanceSteps(glm::dvec3 eye, const GridBox& box) {
 
 class Selector {
  public:
-  Selector(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, const View& view, int width,
-           int height, const SelectionSettings& settings, const HiddenCells* hidden)
+  Selector(const Directory& directory, const Camera& camera, const View& view, int width, int height,
+           const SelectionSettings& settings, const HiddenCells* hidden)
       : directory_(directory),
-        viewpoints_(viewpoints),
         back_(cameraAxes(camera).back),
         view_(view),
         settings_(settings),
         hidden_(hidden),
-        imageTexel_(texelSize(directory.model.settings.imageSize)),
         picturePixels_(static_cast<double>(width) * height * settings.detail * settings.detail) {}
 
   Cut run() {
@@ -231,7 +229,7 @@ class Selector {
   // Edge of a texel of the cell's views, and geometric error of its mesh.
   double texelPixels(const CellRecord& cell) const {
     const double halfSide = std::ldexp(0.5, directory_.model.grid.bits - static_cast<int>(cell.key.level));
-    return imageTexel_ * halfSide / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
+    return texelSize(cell.form.imageSize) * halfSide / (distanceSteps(view_.eye, cell.content) * view_.pixelAngle);
   }
   double meshPixels(const CellRecord& cell) const {
     if (cell.geometricError == 0) return 0;  // all leaves
@@ -274,18 +272,19 @@ class Selector {
     const GridBox& content = directory_.cells[index].content;
     glm::dvec3 direction = view_.eye - glm::dvec3(content.min + content.max) * 0.5;
     if (direction == glm::dvec3(0)) direction = back_;
-    const auto [nearest, second] = nearestTwo(glm::normalize(direction));
-    const Viewpoints::Triple blend = viewpoints_.hasTriangles()
-                                         ? viewpoints_.nearestThree(direction)
+    const Viewpoints& viewpoints = Viewpoints::of(directory_.cells[index].form.views);
+    const auto [nearest, second] = nearestTwo(viewpoints, glm::normalize(direction));
+    const Viewpoints::Triple blend = viewpoints.hasTriangles()
+                                         ? viewpoints.nearestThree(direction)
                                          : Viewpoints::Triple{{nearest, second, second}, {1, 0, 0}};
     cut_.entries.push_back({index, Representation::impostor, static_cast<uint32_t>(nearest),
                             static_cast<uint32_t>(second), blend, texelPixels(directory_.cells[index])});
     cut_.work += workOf(directory_.cells[index], true);
   }
   // The nearest to the direction as it leans; then the nearest other one, as it is.
-  std::array<int, 2> nearestTwo(glm::dvec3 direction) const {
-    const auto [nearest, second] = viewpoints_.nearestTwo(direction);
-    const int leaning = viewpoints_.nearest(direction + settings_.lean);
+  std::array<int, 2> nearestTwo(const Viewpoints& viewpoints, glm::dvec3 direction) const {
+    const auto [nearest, second] = viewpoints.nearestTwo(direction);
+    const int leaning = viewpoints.nearest(direction + settings_.lean);
     return {leaning, leaning == nearest ? second : nearest};
   }
   void addMesh(uint32_t index) {
@@ -298,13 +297,11 @@ class Selector {
   }
 
   const Directory& directory_;
-  const Viewpoints& viewpoints_;
   const glm::dvec3 back_;
   const View view_;
   const SelectionSettings settings_;
   const HiddenCells* const hidden_;
   bool prune_ = false;
-  const double imageTexel_;
   const double picturePixels_;
   std::vector<CutNode> nodes_;
   Cut cut_;
@@ -312,10 +309,10 @@ class Selector {
 
 }  // namespace
 
-Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
+Cut selectCut(const Directory& directory, const Camera& camera, int width, int height,
               const SelectionSettings& settings, const HiddenCells* hidden) {
   const View view = makeView(directory.model.grid, camera, width, height, settings.detail);
-  return Selector(directory, viewpoints, camera, view, width, height, settings, hidden).run();
+  return Selector(directory, camera, view, width, height, settings, hidden).run();
 }
 
 }  // namespace farcell

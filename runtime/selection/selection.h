@@ -100,7 +100,7 @@ struct Cut {
 
 // hidden: what is left out; null: nothing. Where a budget binds, what hidden cells do not take is given to others; else
 // the rest of the cut stays as it is without `hidden`.
-Cut selectCut(const Directory& directory, const Viewpoints& viewpoints, const Camera& camera, int width, int height,
+Cut selectCut(const Directory& directory, const Camera& camera, int width, int height,
               const SelectionSettings& settings, const HiddenCells* hidden = nullptr);
 
 }  // namespace farcell

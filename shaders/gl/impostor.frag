@@ -13,6 +13,7 @@ layout(binding = 2) uniform sampler2DArray normals;  // mean vectors, premultipl
 sample in vec3 boxPoint;
 sample in vec3 viewPoint[VIEWS];
 flat in int shares;
+flat in vec2 edge;
 flat in vec4 eye;
 flat in vec3 boxMin, boxMax;
 flat in vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
@@ -27,16 +28,16 @@ flat in int shownInstance;
 
 // Depth value at a point of the image; 0 where nothing is known.
 float depthValue(vec2 texel, float layer) {
-  ivec2 nearest = clamp(ivec2(floor(texel)), ivec2(0), ivec2(int(frame.image.x) - 1));
+  ivec2 nearest = clamp(ivec2(floor(texel)), ivec2(0), ivec2(int(edge.x) - 1));
   return texelFetch(depths, ivec3(nearest, int(layer)), 0).r * 255.0;
 }
 
 // Of a view at a texel that the ray reaches at s.
 vec4 colourAt(vec2 texel, float layer, float s) {
-  float lod = eye.w - frame.image.w + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
-  vec4 colour = textureLod(colours, vec3(texel * frame.image.y, layer), lod);
+  float lod = eye.w - frame.image.x + log2((1.0 + s) / gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
+  vec4 colour = textureLod(colours, vec3(texel * edge.y, layer), lod);
 #ifdef RELIGHTABLE
-  colour = relit(colour, textureLod(normals, vec3(texel * frame.image.y, layer), lod).xyz, frame.light.xyz);
+  colour = relit(colour, textureLod(normals, vec3(texel * edge.y, layer), lod).xyz, frame.light.xyz);
 #endif
   return colour;
 }

@@ -8,6 +8,7 @@ layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instanc
 sample out vec3 boxPoint;          // local
 sample out vec3 viewPoint[VIEWS];  // in the texture spaces of the views
 flat out int shares;
+flat out vec2 edge;              // of a view in texels; y: 1 / x
 flat out vec4 eye;              // local; w: level of detail at clip w = 1
 flat out vec3 boxMin, boxMax;   // padded, local
 flat out vec4 viewEye[VIEWS], viewMin[VIEWS], viewMax[VIEWS];
@@ -30,6 +31,7 @@ void main() {
   boxPoint = mix(boxMin, boxMax, high);
   eye = instance.eye;
   shares = int(instance.boxMax.w);
+  edge = vec2(instance.tint.w, 1.0 / instance.tint.w);
 #ifdef SHOW
   shownInstance = gl_InstanceID;
 #endif

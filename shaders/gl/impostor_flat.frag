@@ -3,6 +3,7 @@
 
 layout(std140, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(binding = 0) uniform sampler2DArray colours;
+flat in vec2 edge;
 #ifdef RELIGHTABLE
 #include "shaders/shared/shading.h"
 layout(binding = 2) uniform sampler2DArray normals;  // mean vectors, premultiplied by coverage
@@ -24,9 +25,9 @@ layout(location = 1) out vec4 impostorCoverage;  // not attached unless asked fo
 
 void main() {
   float lod = layerAndLod.y - log2(gl_FragCoord.w);  // gl_FragCoord.w is 1 / clip w
-  colour = textureLod(colours, vec3(texel * frame.image.y, layerAndLod.x), lod);
+  colour = textureLod(colours, vec3(texel * edge.y, layerAndLod.x), lod);
 #ifdef RELIGHTABLE
-  colour = relit(colour, textureLod(normals, vec3(texel * frame.image.y, layerAndLod.x), lod).xyz, frame.light.xyz);
+  colour = relit(colour, textureLod(normals, vec3(texel * edge.y, layerAndLod.x), lod).xyz, frame.light.xyz);
 #endif
 #ifdef SHOW
   colour = shownInstead(colour, shownInstance, 0, texel, 1.0 / gl_FragCoord.w, along);

@@ -9,6 +9,7 @@ layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instanc
 out vec2 texel;
 flat out vec2 layerAndLod;
 flat out int shares;
+flat out vec2 edge;  // of a view in texels; y: 1 / x
 #ifdef SHOW
 flat out int shownInstance;
 out vec3 along;  // from the eye
@@ -19,10 +20,11 @@ void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   ImpostorView view = instance.views[0];
   texel = mix(view.boxMin.xy, view.boxMax.xy, corner);
-  float edge = instance.boxMin.w;
+  float texelEdge = instance.boxMin.w;
+  edge = vec2(instance.tint.w, 1.0 / instance.tint.w);
   vec3 toward = normalize(view.textureZ.xyz);
   // The inverse of textureX, textureY: their rows are the view's unit axes divided by a texel's edge.
-  vec3 onPlane = edge * edge * (view.textureX.xyz * (texel.x - view.textureX.w) +
+  vec3 onPlane = texelEdge * texelEdge * (view.textureX.xyz * (texel.x - view.textureX.w) +
                                 view.textureY.xyz * (texel.y - view.textureY.w));
   vec3 local = onPlane + toward * dot(toward, 0.5 * (instance.boxMin.xyz + instance.boxMax.xyz));
   vec3 relative = instance.centre.xyz + instance.centre.w * local;

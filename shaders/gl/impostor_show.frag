@@ -1,5 +1,5 @@
 // Included by all kinds of impostors when they show something else than the picture: SHOW_TINT, SHOW_DEPTH or
-// SHOW_NORMALS as in shaders/shared/show.h. After `frame`, `depths` and, where RELIGHTABLE, `normals`.
+// SHOW_NORMALS as in shaders/shared/show.h. After `frame`, `edge`, `depths` and, where RELIGHTABLE, `normals`.
 #include "shaders/shared/show.h"
 
 layout(std430, binding = 0) readonly buffer Instances { ImpostorInstance instances[]; };
@@ -10,7 +10,7 @@ vec3 impostorNormal(ImpostorView view, ivec2 texel) {
 }
 #else
 float depthAt(ImpostorView view, ivec2 texel) {
-  ivec2 inside = clamp(texel, ivec2(0), ivec2(int(frame.image.x) - 1));
+  ivec2 inside = clamp(texel, ivec2(0), ivec2(int(edge.x) - 1));
   return texelFetch(depths, ivec3(inside, int(view.boxMin.w)), 0).r * 255.0;
 }
 

@@ -16,7 +16,7 @@ struct FrameUniforms {
   ivec4 eyeSteps;    // xyz: integer part of the eye's position on the grid
   vec4 eyeFraction;  // xyz: the rest of it, in steps; w: near distance, root sides
   vec4 light;        // xyz: towards it, unit, world axes
-  vec4 image;        // x: edge of a view in texels; y: 1 / x; w: what more samples add to the level of detail
+  vec4 image;        // x: what more samples add to the level of detail
   vec4 depthScale;   // for depthGrey (show.h), of depths in root sides
 };
 
@@ -38,7 +38,7 @@ struct ImpostorInstance {
   vec4 boxMin;  // xyz: content box, local; w: edge of a texel, half sides
   vec4 boxMax;  // w: its shares, a bit for each sample that shows it (hand_over.h)
   vec4 eye;     // xyz: the eye, local; w: added to log2(clip w) to get the level of detail
-  vec4 tint;    // xyz: colour for what stands for cells instead of showing them (show.h)
+  vec4 tint;    // xyz: colour for what stands for cells instead of showing them (show.h); w: edge of a view in texels
   ImpostorView views[kImpostorViews];
 };
 

@@ -13,8 +13,7 @@ namespace farcell {
 // words: a camera file, or how many automatic cameras of the model.
 inline Result<std::vector<Camera>> loadCameras(const std::string& words, const Model& model) {
   if (words.find_first_not_of("0123456789") != std::string::npos) return readCameras(words);
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
-  return autoCameras(model, viewpoints, std::atoi(words.c_str()));
+  return autoCameras(model, Viewpoints::of(model.settings.form.views), std::atoi(words.c_str()));
 }
 
 }  // namespace farcell

@@ -25,8 +25,8 @@ inline DrawnPack buildDrawn(const std::string& mesh, const std::function<Result<
   if (!written) throw std::runtime_error(written.error().message);
   BuildOptions options;
   options.settings.leafTriangles = 500;
-  options.settings.views = 12;
-  options.settings.imageSize = 16;
+  options.settings.form.views = 12;
+  options.settings.form.imageSize = 16;
   options.settings.samples = 1;
   Progress silent(false);
   const auto built = buildPack({&input, 1}, path, options, silent);

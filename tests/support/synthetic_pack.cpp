@@ -170,8 +170,7 @@ Result<> writeSyntheticPack(const std::filesystem::path& path, const std::vector
       }
   Model& model = directory.model;
   model.grid = gridAround(low, high);
-  model.settings.views = settings.views;
-  model.settings.imageSize = settings.imageSize;
+  model.settings.form = {settings.views, settings.imageSize};
   model.settings.lighting = settings.lighting;
   model.settings.sun = settings.sun;
   model.settings.up = settings.up;
@@ -189,6 +188,7 @@ Result<> writeSyntheticPack(const std::filesystem::path& path, const std::vector
   FARCELL_ASSIGN(PackWriter writer, PackWriter::create(path));
   for (uint32_t i = 0; i < cells.size(); ++i) {
     CellRecord& record = cells[i].record;
+    record.form = model.settings.form;
     if (record.childCount == 0) {
       FARCELL_ASSIGN(record.firstGeometryPage, writer.add(PageKind::geometry, i, 0, decodedSizeBytes(cells[i].page),
                                                           encodeGeometryPage(cells[i].page)));

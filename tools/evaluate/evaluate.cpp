@@ -67,8 +67,7 @@ Result<std::vector<Camera>> loadCameras(const EvaluateOptions& options, const Mo
   std::vector<Camera> cameras;
   if (options.cameras.empty() && options.autoCameras == 0) return cameras;
   if (options.cameras.empty()) {
-    FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
-    cameras = autoCameras(model, viewpoints, options.autoCameras);
+    cameras = autoCameras(model, Viewpoints::of(model.settings.form.views), options.autoCameras);
   } else {
     FARCELL_ASSIGN(cameras, readCameras(options.cameras));
   }
@@ -122,12 +121,10 @@ Result<ReferenceImage> traceCamera(Run& run, const Camera& camera, const Light& 
 // The most that auto needs in memory from one of the cameras.
 Result<uint64_t> memoryOfAuto(const Run& run) {
   const Directory& directory = run.packs.own().directory();
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
   uint64_t bytes = 0;
   for (const Camera& camera : run.cameras) {
-    const Cut cut =
-        selectCut(directory, viewpoints, camera, run.options.width, run.options.height, run.options.selection);
-    bytes = std::max(bytes, residentBytes(directory, viewpoints, cut, ImpostorKind::depthCorrected));
+    const Cut cut = selectCut(directory, camera, run.options.width, run.options.height, run.options.selection);
+    bytes = std::max(bytes, residentBytes(directory, cut, ImpostorKind::depthCorrected));
   }
   return bytes;
 }

@@ -14,7 +14,6 @@ namespace {
 struct Walker {
   RendererPlan plan;
   const PackFile& pack;
-  Viewpoints viewpoints;
   Renderer renderer;
   Cut cut;
   std::vector<float> picture;  // composited; empty before the first frame
@@ -38,9 +37,8 @@ Result<std::vector<Walker>> makeWalkers(GlContext& context, const Packs& packs, 
   std::vector<Walker> walkers;
   for (const RendererPlan& plan : settings.plans) {
     const PackFile& pack = packs.of(plan);
-    FARCELL_ASSIGN(Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
     FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, settings.residentBytes));
-    walkers.push_back({plan, pack, std::move(viewpoints), std::move(renderer), {}, {}});
+    walkers.push_back({plan, pack, std::move(renderer), {}, {}});
   }
   return walkers;
 }
@@ -74,8 +72,7 @@ Result<PathFrame> step(Walk& walk, Walker& walker, const Camera& camera) {
   PathFrame frame;
   FARCELL_ASSIGN(std::vector<float> picture, drawFrame(walker, camera, walk.settings.background, frame));
   frame.paperError = paperError(walk.truth.image, walk.truth.now, picture);
-  Cut cut = selectCut(walker.pack.directory(), walker.viewpoints, camera, settings.width, settings.height,
-                      settings.selection);
+  Cut cut = selectCut(walker.pack.directory(), camera, settings.width, settings.height, settings.selection);
   if (!walker.picture.empty()) {
     FARCELL_TRY(compareWithBefore(walk, walker, picture, frame));
     const Switches switches = countSwitches(walker.pack.directory(), walker.cut, cut, settings.kind);

@@ -81,13 +81,20 @@ Result<> runTextures(const ExtractOptions& options) {
   return {};
 }
 
+// Of any cell.
+uint32_t mostViews(const Directory& directory) {
+  int most = 0;
+  for (const CellRecord& cell : directory.cells) most = std::max(most, cell.form.views);
+  return static_cast<uint32_t>(most);
+}
+
 Result<> runViews(const ExtractOptions& options) {
   ExtractSettings settings;
   FARCELL_ASSIGN(settings.channel, parseChannel(options.channel));
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(options.pack));
   const Directory& directory = pack.directory();
   FARCELL_ASSIGN(settings.cells, parseCells(options.cell, directory));
-  FARCELL_ASSIGN(settings.views, parseViews(options.views, static_cast<uint32_t>(directory.model.settings.views)));
+  FARCELL_ASSIGN(settings.views, parseViews(options.views, mostViews(directory)));
   settings.format = options.format;
   settings.full = options.full;
   settings.atlas = options.atlas;

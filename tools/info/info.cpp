@@ -38,8 +38,9 @@ Json modelJson(const Directory& directory) {
 }
 
 Json settingsJson(const BuildSettings& settings) {
-  return {{"views", settings.views},
-          {"imageSize", settings.imageSize},
+  return {{"views", settings.form.views},
+          {"imageSize", settings.form.imageSize},
+          {"forms", settings.forms == Forms::chosen ? "chosen" : "fixed"},
           {"samples", settings.samples},
           {"leafTriangles", settings.leafTriangles},
           {"maxLevel", settings.maxLevel},

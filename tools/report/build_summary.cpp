@@ -75,12 +75,12 @@ std::string expectedTable(const BuildSummary& summary) {
   return text;
 }
 
-std::string alternativesTable(const BuildSummary& summary) {
-  if (summary.alternatives.empty()) return "";
+std::string formsTable(const BuildSummary& summary) {
+  if (summary.forms.empty()) return "";
   std::string text =
-      fmt::format("\n{:<12}{:>10}{:>10}{:>10}{:>14}\n", "other views", "size", "error A", "error B", "bytes a cell");
-  for (const BuildSummary::Alternative& row : summary.alternatives)
-    text += fmt::format("{:<12}{:>10}{:>10.3f}{:>10.3f}{:>14}\n", row.views, row.imageSize, row.errorA, row.errorB,
+      fmt::format("\n{:<20}{:>10}{:>10}{:>10}{:>14}\n", "views chosen", "cells", "views", "size", "bytes a cell");
+  for (const BuildSummary::Form& row : summary.forms)
+    text += fmt::format("{:<20}{:>10}{:>10}{:>10}{:>14}\n", row.kind, row.cells, row.views, row.imageSize,
                         bytesText(static_cast<uint64_t>(row.bytes)));
   return text;
 }
@@ -91,7 +91,7 @@ std::string buildSummaryText(const BuildSummary& summary) {
   return fmt::format(
       "{} triangles, {} + {} inner cells, {} of {} views kept\n\n{}\n{}{}{}{}\npack {}; peak memory {}\n",
       summary.triangles, summary.leaves, summary.innerCells, summary.viewsKept, summary.viewsBaked, stageTable(summary),
-      partTable(summary), leftOutTable(summary), expectedTable(summary), alternativesTable(summary),
+      partTable(summary), leftOutTable(summary), expectedTable(summary), formsTable(summary),
       ofLimit(summary.packBytes, summary.packBudget), ofLimit(summary.peakRssBytes, summary.memoryLimit));
 }
 

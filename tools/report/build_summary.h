@@ -37,12 +37,13 @@ struct BuildSummary {
     std::vector<double> ninetieth;
   };
 
-  // What other views would show, and take.
-  struct Alternative {
+  // The views of a kind of cells, as chosen.
+  struct Form {
+    std::string kind;  // "level 5 leaves"
+    uint64_t cells = 0;
     int views = 0;
     int imageSize = 0;
-    double errorA = 0, errorB = 0;  // of kinds A and B, in those of full geometry at one sample a pixel
-    double bytes = 0;               // a cell
+    double bytes = 0;  // a cell, as measured
   };
 
   uint64_t triangles = 0;
@@ -60,7 +61,7 @@ struct BuildSummary {
   uint64_t memoryLimit = 0;  // bytes; 0: none
   std::vector<LeftOut> leftOut;
   std::vector<Expected> expected;
-  std::vector<Alternative> alternatives;
+  std::vector<Form> forms;
 };
 
 // At most 80 columns, unless a reason is long.

@@ -100,7 +100,7 @@ void printCells(const std::string& path, const Directory& directory, std::span<c
 Result<> bench(const Arguments& arguments) {
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(arguments.pack));
   const Directory& directory = pack.directory();
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory.model.settings.views));
+  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(directory.model.settings.form.views));
   FARCELL_ASSIGN(const Region region, readRegion(arguments.visitable, directory.model.settings.metresPerUnit));
   FARCELL_ASSIGN(Measured measured, measure(pack));
   const auto start = std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ Result<> bench(const Arguments& arguments) {
   std::vector<std::optional<uint64_t>> budgets(arguments.budgets.begin(), arguments.budgets.end());
   if (budgets.empty()) budgets.push_back(std::nullopt);
   for (const std::optional<uint64_t>& budget : budgets) {
-    const ChooseInput input{viewpoints, directory.cells, measured.geometryBytes, measured.views};
+    const ChooseInput input{directory.cells, measured.geometryBytes, measured.views};
     const BudgetRule rule = arguments.rule == "worth" ? BudgetRule::worth : BudgetRule::triangles;
     const auto chooseStart = std::chrono::steady_clock::now();
     FARCELL_ASSIGN(const Choice choice, chooseViews(input, {arguments.leastWorth, budget, rule}));

@@ -112,7 +112,7 @@ struct Sampled {
 // Predicts the view from the one of its page that looks most alike.
 void addReprojected(const ViewImage& view, const ViewPage& page, const BuildSettings& settings,
                     ReprojectTotals& totals) {
-  const Viewpoints viewpoints = Viewpoints::create(settings.views).value();
+  const Viewpoints viewpoints = Viewpoints::create(settings.form.views).value();
   const auto cosine = [&](const ViewImage& other) {
     return glm::dot(viewpoints.directions()[view.view], viewpoints.directions()[other.view]);
   };
@@ -120,13 +120,13 @@ void addReprojected(const ViewImage& view, const ViewPage& page, const BuildSett
   for (const ViewImage& other : page.views)
     if (other.width > 0 && other.view != view.view && (nearest == nullptr || cosine(other) > cosine(*nearest)))
       nearest = &other;
-  if (nearest != nullptr) addReprojected(view, *nearest, viewpoints, settings.imageSize, totals);
+  if (nearest != nullptr) addReprojected(view, *nearest, viewpoints, settings.form.imageSize, totals);
 }
 
 Result<bool> measureViews(const PackFile& pack, uint32_t index, Totals& totals, Sampled& sampled) {
   FARCELL_ASSIGN(const ViewPage page, pack.readViews(index));
   const BuildSettings& settings = pack.directory().model.settings;
-  const ViewLimits limits{static_cast<uint32_t>(settings.views), static_cast<uint32_t>(settings.imageSize),
+  const ViewLimits limits{static_cast<uint32_t>(settings.form.views), static_cast<uint32_t>(settings.form.imageSize),
                           decodedSizeBytes(page)};
   for (const ViewImage& view : page.views)
     if (view.width > 0 && sampled.every > 0 && sampled.met++ % sampled.every == 0) {

@@ -134,7 +134,7 @@ std::vector<Crossing> crossings(const Viewpoints& viewpoints) {
 
 Result<> pops(const PackFile& pack, Renderer& renderer) {
   const Model& model = pack.directory().model;
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.views));
+  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(model.settings.form.views));
   if (!viewpoints.hasTriangles()) return {};
   // The content's middle: what selection measures directions from, where the root is the impostor.
   const glm::dvec3 min = model.grid.worldFromGrid(model.bounds.min), max = model.grid.worldFromGrid(model.bounds.max);

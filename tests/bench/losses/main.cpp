@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 
-#include "cache/schema/viewpoints.h"
 #include "runtime/renderer.h"
 #include "tests/bench/bench_cameras.h"
 #include "tests/bench/traced_cell.h"
@@ -127,7 +126,7 @@ void print(const PackFile& pack, const Camera& camera, const Way& way, const std
   }
 }
 
-Result<> benchCamera(const PackFile& pack, Renderer& renderer, const Viewpoints& viewpoints, const Camera& camera) {
+Result<> benchCamera(const PackFile& pack, Renderer& renderer, const Camera& camera) {
   FARCELL_ASSIGN(const ReferenceImage reference, traceReference(pack, camera, {}));
   const std::vector<float> truth = composite(reference, kBackground);
   FARCELL_ASSIGN(const std::vector<uint32_t> owner, owners(pack, camera, reference.width, reference.height));
@@ -138,7 +137,7 @@ Result<> benchCamera(const PackFile& pack, Renderer& renderer, const Viewpoints&
     const std::vector<float> error = errors(truth, image);
     if (fullError.empty()) fullError = error;
     print(pack, camera, way, owner, error, fullError,
-          selectCut(pack.directory(), viewpoints, camera, image.width, image.height, way.settings.selection));
+          selectCut(pack.directory(), camera, image.width, image.height, way.settings.selection));
   }
   std::fflush(stdout);
   return {};
@@ -147,12 +146,11 @@ Result<> benchCamera(const PackFile& pack, Renderer& renderer, const Viewpoints&
 Result<> bench(const std::string& path, const std::string& words, size_t every) {
   FARCELL_ASSIGN(const PackFile pack, PackFile::open(path));
   FARCELL_ASSIGN(const std::vector<Camera> cameras, loadCameras(words, pack.directory().model));
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
   FARCELL_ASSIGN(GlContext context, GlContext::createHeadless());
   FARCELL_ASSIGN(Renderer renderer, Renderer::create(context, pack, kResidentBytes));
   std::printf(
       "camera,way,cell,level,leaf,drawn,lengthPixels,meshTriangles,triangles,areaPixels,pixels,error,fullError\n");
-  for (size_t i = 0; i < cameras.size(); i += every) FARCELL_TRY(benchCamera(pack, renderer, viewpoints, cameras[i]));
+  for (size_t i = 0; i < cameras.size(); i += every) FARCELL_TRY(benchCamera(pack, renderer, cameras[i]));
   return {};
 }
 

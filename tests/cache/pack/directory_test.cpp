@@ -115,13 +115,43 @@ TEST_F(LyingDirectory, IsRefusedForItsGrid) {
       "bounds", [](Directory& d) { d.model.bounds.min.x = -1; }, "inside the root cube");
 }
 
+TEST_F(LyingDirectory, IsRefusedForTheFormOfACell) {
+  expectRefused(
+      "other than the settings'",
+      [](Directory& d) {
+        d.cells[1].form = {12, 16};
+      },
+      "42 views of 16 texels");
+  expectRefused(
+      "forms", [](Directory& d) { d.model.settings.forms = static_cast<Forms>(2); }, "forms of 0 or 1");
+  const auto refuse = [&](ViewForm form) {
+    expectRefused(
+        "form",
+        [&](Directory& d) {
+          d.model.settings.forms = Forms::chosen;
+          d.cells[0].form = form;
+        },
+        "a set of viewpoints");
+  };
+  for (const int views : {0, 13, 41, 65535}) refuse({views, 64});
+  for (const int size : {0, 8, 24, 2048, 65535}) refuse({42, size});
+  // Of fewer views there are fewer groups than pages were made for.
+  expectRefused(
+      "groups",
+      [](Directory& d) {
+        d.model.settings.forms = Forms::chosen;
+        d.pages[1].group = 12;
+      },
+      "a rising group below 12");
+}
+
 TEST_F(LyingDirectory, IsRefusedForItsSettings) {
   for (const int views : {0, -42, 13, 41, 2562, INT32_MAX})
     expectRefused(
-        "views", [&](Directory& d) { d.model.settings.views = views; }, "views");
+        "views", [&](Directory& d) { d.model.settings.form.views = views; }, "a set of viewpoints");
   for (const int size : {0, -16, 8, 24, 127, 2048, INT32_MIN})
     expectRefused(
-        "image size", [&](Directory& d) { d.model.settings.imageSize = size; }, "a power of two");
+        "image size", [&](Directory& d) { d.model.settings.form.imageSize = size; }, "a power of two");
   for (const int samples : {0, -4, 2, 9, 256})
     expectRefused(
         "samples", [&](Directory& d) { d.model.settings.samples = samples; }, "samples");

@@ -120,7 +120,9 @@ Bytes directory(const Bytes& geometry, const Bytes& views, uint32_t group,
       .u32({0, 0, 0, 4, 4, 0})
       .u64({2, 2, 0})
       .raw({161, 145, 1, 255})
-      .zeros(8);
+      .zeros(8)
+      .number(42, 2)
+      .number(16, 2);
   text.u32({2});
   text.u32({1, 0, 0, geometry.size(), 4 * (4 * 4 + 6), 0}).u64({places[0].first, places[0].second});
   text.u32({2, 0, group, views.size(), 5 * 5, 0}).u64({places[1].first, places[1].second});

@@ -155,12 +155,12 @@ TEST(PackFile, SaysThatAFutureVersionIsUnsupported) {
 // A pack of one triangle, one small view and one small atlas, so that every bit of the file can be tried.
 void writeSmallPack(const std::filesystem::path& path) {
   Directory directory;
-  directory.model.settings.views = 12;
-  directory.model.settings.imageSize = 16;
+  directory.model.settings.form = {12, 16};
   directory.model.hasColours = directory.model.hasNormals = true;
   directory.model.settings.lighting = Lighting::relightable;
   directory.sourceName = "a";
   directory.cells.resize(1);
+  directory.cells[0].form = {12, 16};
   directory.cells[0].content = {GridPoint(0), GridPoint(5, 5, 0)};
   directory.cells[0].triangles = 1;
   directory.cells[0].meshTriangles = 1;

@@ -141,8 +141,7 @@ inline Directory fullDirectory() {
   Model& model = directory.model;
   model.grid = {glm::dvec3(-5, 1e6, 0.125), 80, 20};
   model.bounds = {GridPoint(0), GridPoint(1 << 19, 1 << 10, 1000)};
-  model.settings = {.views = 42,
-                    .imageSize = 16,
+  model.settings = {.form = {42, 16},
                     .samples = 4,
                     .leafTriangles = 100,
                     .maxLevel = 3,
@@ -189,6 +188,7 @@ inline Directory fullDirectory() {
                         .viewPageCount = 1,
                         .firstTexturePage = 5,
                         .texturePageCount = 2};
+  for (CellRecord& cell : directory.cells) cell.form = model.settings.form;
   return directory;
 }
 

@@ -248,7 +248,7 @@ TEST(PackPageSource, ServesThePagesOfAPack) {
   views.views[0].width = views.views[0].height = 1;
   views.views[0].rgba = {1, 2, 3, 4};
   views.views[0].depth = {5};
-  const auto group = static_cast<uint32_t>(Viewpoints::create(directory.model.settings.views)->group(0));
+  const auto group = static_cast<uint32_t>(Viewpoints::create(directory.model.settings.form.views)->group(0));
   {
     Result<PackWriter> writer = PackWriter::create(path);
     ASSERT_TRUE(writer.has_value());

@@ -68,7 +68,7 @@ class BuildPack : public testing::Test {
 BuildOptions smallLeaves() {
   BuildOptions options;
   options.settings.leafTriangles = 600;
-  options.settings.imageSize = 64;
+  options.settings.form.imageSize = 64;
   options.settings.samples = 4;
   options.settings.measure = Measure::off;  // measured_build_test.cpp
   return options;
@@ -188,7 +188,7 @@ TEST_F(BuildPack, EveryInstructionSetAndMemoryGivesTheSameBytes) {
 TEST_F(BuildPack, LeafTrianglesTileTheSphere) {
   const auto mesh = write("sphere.obj", sphereObj(60, 1, glm::dvec3(0)));
   BuildOptions options = smallLeaves();
-  options.settings.imageSize = 16;
+  options.settings.form.imageSize = 16;
   options.settings.samples = 1;
   ASSERT_TRUE(build(mesh, "sphere.far", options));
   const PackFile pack = PackFile::open(directory_ / "sphere.far").value();
@@ -239,17 +239,17 @@ TEST_F(BuildPack, StreamedLeavesBakeTheSameViewsAsGatheredOnes) {
   Progress silent(false);
   const Partition partition =
       partitionMesh(*mesh, options.settings, {directory_, 1, kMinPartitionMemoryBytes}, silent).value();
-  const CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
+  CellTree tree = cellTreeOf(partition.leaves, partition.triangles);
+  tree.cells[0].form = options.settings.form;
   const Model model{partition.grid, partition.bounds, options.settings, false, false};
-  const Viewpoints viewpoints = Viewpoints::create(42).value();
   const std::vector<ViewMask> all;
   MemoryGate gate(uint64_t{1} << 30);
   WorkClock clock;
   // memoryOfThread: little enough that the leaves pass several times, for a few views each.
   const auto views = [&](const char* name, uint64_t gatherTriangles) {
     std::filesystem::create_directories(directory_ / name);
-    const auto store = CellStore::open(directory_ / name, 0, {42, 64, UINT64_MAX}).value();
-    const BuildContext context{model, tree, partition, viewpoints, all, false, *store, gate, 30'000'000, clock};
+    const auto store = CellStore::open(directory_ / name, 0).value();
+    const BuildContext context{model, tree, partition, all, false, *store, gate, 30'000'000, clock};
     EXPECT_TRUE(bakeBatch(context, {0, 0, 21}, nullptr, gatherTriangles));
     return store->views(0).value();
   };
@@ -277,7 +277,7 @@ TEST_F(BuildPack, MeaninglessSettingsAreMisuse) {
     return result ? ErrorKind::io : result.error().kind;
   };
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.views = 43; }), ErrorKind::invalidArgument);
-  EXPECT_EQ(kindOf([](BuildSettings& s) { s.imageSize = 100; }), ErrorKind::invalidArgument);
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.form.imageSize = 100; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.samples = 5; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.leafTriangles = 0; }), ErrorKind::invalidArgument);
   for (const int error : {-1, 9})

@@ -122,8 +122,8 @@ void expectSamePacks(const IndexedModel& model, const BuildOptions& options) {
 TEST(Formats, GiveTheSamePackOfABumpyTorus) {
   BuildOptions options;
   options.settings.leafTriangles = 600;
-  options.settings.views = 12;
-  options.settings.imageSize = 32;
+  options.settings.form.views = 12;
+  options.settings.form.imageSize = 32;
   options.settings.samples = 1;
   expectSamePacks(bumpyTorus(), options);
 }
@@ -133,8 +133,8 @@ TEST(Formats, GiveTheSamePackOfAScan) {
   const std::filesystem::path path = std::filesystem::path(FARCELL_SOURCE_DIR) / "../shared/datasets/nefertiti.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   BuildOptions options;
-  options.settings.views = 12;
-  options.settings.imageSize = 32;
+  options.settings.form.views = 12;
+  options.settings.form.imageSize = 32;
   options.settings.samples = 1;
   const IndexedModel model = modelOf(path);
   ASSERT_EQ(model.triangles.size(), 99938u);

@@ -51,9 +51,9 @@ class MeasuredBuild : public testing::Test {
                     int imageSize = 16) const {
     BuildOptions options;
     options.settings.leafTriangles = 200;
-    options.settings.imageSize = imageSize;
+    options.settings.form.imageSize = imageSize;
     options.settings.samples = 4;
-    options.settings.views = 12;
+    options.settings.form.views = 12;
     options.settings.measure = measure;
     options.threads = threads;
     options.memoryBytes = memoryBytes;

@@ -19,8 +19,8 @@ class Sources : public testing::Test {
 
   Directory build(const std::vector<std::filesystem::path>& meshes, BuildOptions options = {}) const {
     Progress silent(false);
-    options.settings.views = 12;
-    options.settings.imageSize = 16;
+    options.settings.form.views = 12;
+    options.settings.form.imageSize = 16;
     const Result<BuildResult> built = buildPack(meshes, directory_.path() / "x.far", options, silent);
     if (built) return built->directory;
     ADD_FAILURE() << built.error().message;

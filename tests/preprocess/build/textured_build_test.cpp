@@ -57,7 +57,7 @@ class TexturedBuild : public testing::Test {
     const std::filesystem::path mesh = write("square.obj", obj);
     BuildOptions options;
     options.threads = threads;
-    options.settings.imageSize = 64;
+    options.settings.form.imageSize = 64;
     options.settings.leafTriangles = 600;
     options.settings.up = UpAxis::z;
     Progress silent(false);
@@ -71,7 +71,7 @@ class TexturedBuild : public testing::Test {
 // Calls visit(image, frame) for every view of a cell that looks at the square from above, not too flatly.
 template <class Visit>
 void forEachUpperView(const PackFile& pack, uint32_t cell, const Visit& visit) {
-  const Viewpoints viewpoints = Viewpoints::create(pack.directory().model.settings.views).value();
+  const Viewpoints viewpoints = Viewpoints::create(pack.directory().model.settings.form.views).value();
   const CellRecord& record = pack.directory().cells[cell];
   for (uint32_t i = 0; i < record.viewPageCount; ++i) {
     const ViewPage page = pack.readViews(record.firstViewPage + i).value();
@@ -84,7 +84,7 @@ void forEachUpperView(const PackFile& pack, uint32_t cell, const Visit& visit) {
 
 // Where a texel's middle lies on the plane z = 0, in the model's coordinates.
 glm::dvec2 placeOf(const Directory& directory, const CellRecord& cell, const ViewFrame& frame, double x, double y) {
-  const double t = texelSize(directory.model.settings.imageSize);
+  const double t = texelSize(directory.model.settings.form.imageSize);
   const glm::dvec3 inPlane =
       ((x + .5) * t - kViewHalfExtent) * frame.right + ((y + .5) * t - kViewHalfExtent) * frame.up;
   const double half = cellHalfSide(directory.model.grid, cell.key);

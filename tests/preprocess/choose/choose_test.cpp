@@ -14,12 +14,11 @@ namespace {
 
 struct Scene {
   Model model;
-  Viewpoints viewpoints = *Viewpoints::create(42);
   std::vector<CellRecord> cells;
   std::vector<uint32_t> geometryBytes;
   std::vector<ViewCost> views;
 
-  ChooseInput input() const { return {viewpoints, cells, geometryBytes, views}; }
+  ChooseInput input() const { return {cells, geometryBytes, views}; }
 
   // Gives every cell its views; of a leaf, more triangles are more bytes.
   void bake(std::mt19937& random) {
@@ -54,13 +53,13 @@ Scene randomScene(unsigned seed) {
 
 // The size of a pack with these views, by FORMAT.md, with a directory of short names.
 uint64_t packBytes(const Scene& scene, const std::vector<ViewFate>& fates) {
-  uint64_t bytes = 32 + 80 + 104 + 300 + 112 * scene.cells.size();
+  uint64_t bytes = 32 + 80 + 104 + 300 + 116 * scene.cells.size();
   std::map<std::pair<uint32_t, int>, uint64_t> pages;
   for (size_t i = 0; i < fates.size(); ++i) {
     if (fates[i] != ViewFate::kept) continue;
     const ViewCost& view = scene.views[i];
     uint64_t& page =
-        pages.try_emplace({view.cell, scene.viewpoints.group(static_cast<int>(view.view))}, 8).first->second;
+        pages.try_emplace({view.cell, Viewpoints::of(42).group(static_cast<int>(view.view))}, 8).first->second;
     page += 32 + view.bytes;
   }
   for (const auto& [place, page] : pages) bytes += page + 40;

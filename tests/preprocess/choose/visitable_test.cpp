@@ -73,10 +73,11 @@ City cityOf(std::mt19937& random, double hill, int up, int views) {
   Model& model = city.directory.model;
   model.grid = Grid{{1e6, -2e6, 300}, 5000, kMaxGridBits};
   model.settings.up = static_cast<UpAxis>(up);
-  model.settings.views = views;
+  model.settings.form.views = views;
   CityMaker maker(city, random);
   maker.split({});
   city.directory.cells = treeOf(maker.leaves);
+  for (CellRecord& cell : city.directory.cells) cell.form = model.settings.form;
   model.bounds = city.directory.cells[0].content;
   return city;
 }
@@ -85,7 +86,7 @@ class Visits {
  public:
   Visits(const City& city, const Region& region, std::mt19937& random)
       : city_(city),
-        viewpoints_(*Viewpoints::create(city.directory.model.settings.views)),
+        viewpoints_(*Viewpoints::create(city.directory.model.settings.form.views)),
         visitable_(region, city.directory.model, city.directory.cells, viewpoints_),
         random_(random) {
     for (const CellRecord& cell : city.directory.cells) seen_.push_back(visitable_.seen(cell));
@@ -102,7 +103,7 @@ class Visits {
     SelectionSettings settings;
     settings.mode = RenderMode::impostors;
     settings.texelPixels = std::exp2(6 * around(random_));
-    const Cut cut = selectCut(city_.directory, viewpoints_, camera, 1000, 1000, settings);
+    const Cut cut = selectCut(city_.directory, camera, 1000, 1000, settings);
     for (const CutEntry& entry : cut.entries) {
       if (std::isinf(entry.errorPixels)) continue;
       ++drawn_;

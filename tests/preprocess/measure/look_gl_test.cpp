@@ -50,8 +50,7 @@ class CpuViews {
     for (uint32_t page = cell.firstViewPage; page < cell.firstViewPage + cell.viewPageCount; ++page) {
       const ViewPage content = pack.readViews(page).value();
       for (const ViewImage& view : content.views)
-        texels_.emplace(view.view,
-                        ViewTexels(view, viewpoints().directions()[view.view], directory.model.settings.imageSize));
+        texels_.emplace(view.view, ViewTexels(view, viewpoints().directions()[view.view], cell.form.imageSize));
     }
     const GridBox cube = cellBox(directory.model.grid, cell.key);
     const glm::vec3 centre = glm::vec3(cube.min + cube.max) * 0.5f;

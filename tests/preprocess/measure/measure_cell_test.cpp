@@ -26,7 +26,7 @@ ViewOf viewsOf(const CellSoup& soup) {
 }
 
 CellErrors measured(const CellSoup& alone, const CellSoup& grown, const CellSoup* mesh, LocalBox content) {
-  const MeasureSettings settings{viewpoints(), kImageSize, 16, {0, 0, 1}, Lighting::baked, 0, false};
+  const MeasureSettings settings{viewpoints(), kImageSize, 16, {0, 0, 1}, Lighting::baked, 0};
   const auto errors = measureCell({content, alone, grown, mesh, nullptr, nullptr}, viewsOf(grown), settings);
   if (!errors) throw std::runtime_error(errors.error().message);
   return *errors;

@@ -19,12 +19,13 @@ constexpr int kWidth = 320, kHeight = 240, kDepth = 4;
 Directory treeOf(unsigned seed) {
   Directory directory;
   directory.model.grid = Grid{{5, -7, 100}, 64, 24};
-  directory.model.settings.imageSize = 64;
+  directory.model.settings.form.imageSize = 64;
   std::mt19937 random(seed);
   directory.cells.resize(1);
   for (uint32_t i = 0; i < directory.cells.size(); ++i) {
     CellRecord& cell = directory.cells[i];
     cell.content = cellBox(directory.model.grid, cell.key);
+    cell.form = directory.model.settings.form;
     cell.triangles = 100;
     cell.firstViewPage = 0;
     cell.viewPageCount = 1;
@@ -45,11 +46,6 @@ Directory treeOf(unsigned seed) {
     }
   }
   return directory;
-}
-
-const Viewpoints& viewpoints() {
-  static const Viewpoints set = *Viewpoints::create(42);
-  return set;
 }
 
 Camera cameraAt(const Directory& directory, glm::dvec3 eye) {
@@ -97,9 +93,9 @@ TEST(HandOver, everyShareIsACutOfAllThatIsInView) {
         const Camera camera = cameraAt(directory, eye);
         std::set<uint32_t> expected;
         for (const CutEntry& entry :
-             selectCut(directory, viewpoints(), camera, kWidth, kHeight, settingsOf(RenderMode::triangles)).entries)
+             selectCut(directory, camera, kWidth, kHeight, settingsOf(RenderMode::triangles)).entries)
           expected.insert(entry.cell);
-        const Cut cut = selectHandOver(directory, viewpoints(), camera, kWidth, kHeight, settingsOf(mode));
+        const Cut cut = selectHandOver(directory, camera, kWidth, kHeight, settingsOf(mode));
         uint64_t triangles = 0;
         for (const CutEntry& entry : cut.entries) {
           EXPECT_NE(entry.shares, 0);
@@ -119,11 +115,10 @@ TEST(HandOver, everyShareIsInTheOrderOfItsOwnCut) {
   for (const glm::dvec3 eye : eyes()) {
     SCOPED_TRACE(fmt::format("eye {} {} {}", eye.x, eye.y, eye.z));
     const Camera camera = cameraAt(directory, eye);
-    const Cut cut = selectHandOver(directory, viewpoints(), camera, kWidth, kHeight, settingsOf(RenderMode::impostors));
+    const Cut cut = selectHandOver(directory, camera, kWidth, kHeight, settingsOf(RenderMode::impostors));
     // The order of leaves, in which each entry stands where its first leaf does.
     std::map<uint32_t, size_t> places;
-    for (const CutEntry& entry :
-         selectCut(directory, viewpoints(), camera, kWidth, kHeight, settingsOf(RenderMode::full)).entries)
+    for (const CutEntry& entry : selectCut(directory, camera, kWidth, kHeight, settingsOf(RenderMode::full)).entries)
       places.emplace(entry.cell, places.size());
     for (int share = 0; share < kShares; ++share) {
       std::map<uint32_t, size_t> first;  // by cell drawn
@@ -149,8 +144,8 @@ int mostSharesAtOnce(const Directory& directory, const std::vector<glm::dvec3>& 
   for (const glm::dvec3 eye : path) {
     const Camera camera = cameraAt(directory, eye);
     const SelectionSettings settings = settingsOf(RenderMode::impostors);
-    const Cut cut = handOver ? selectHandOver(directory, viewpoints(), camera, kWidth, kHeight, settings)
-                             : selectCut(directory, viewpoints(), camera, kWidth, kHeight, settings);
+    const Cut cut = handOver ? selectHandOver(directory, camera, kWidth, kHeight, settings)
+                             : selectCut(directory, camera, kWidth, kHeight, settings);
     std::map<uint32_t, int> changed;
     for (int share = 0; share < kShares; ++share) {
       auto ways = waysOf(directory, cut, share);

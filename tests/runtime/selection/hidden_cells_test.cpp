@@ -46,8 +46,8 @@ TEST(HiddenCells, hiddenCellsAreLeftOutOfACutThatStaysAsItIs) {
       for (const RenderMode renderMode : {RenderMode::automatic, RenderMode::meshes, RenderMode::triangles}) {
         const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
         const SelectionSettings settings = mode(renderMode, 1'000'000'000);
-        const Cut all = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings);
-        const Cut seen = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings, &hidden);
+        const Cut all = selectCut(tree.directory, camera, kWidth, kHeight, settings);
+        const Cut seen = selectCut(tree.directory, camera, kWidth, kHeight, settings, &hidden);
         std::vector<Drawing> expected;
         for (const Drawing& drawing : drawingsOf(all))
           if (!hidden.hides(drawing.first)) expected.push_back(drawing);
@@ -69,13 +69,12 @@ TEST(HiddenCells, whatHiddenCellsDoNotTakeGoesToOthersWhereABudgetBinds) {
       const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
       SelectionSettings settings = mode(RenderMode::automatic, 1'000'000'000);
       settings.millisecondPrice = 0;
-      settings.triangleBudget =
-          selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings).triangles / 2;
-      const Cut all = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings);
+      settings.triangleBudget = selectCut(tree.directory, camera, kWidth, kHeight, settings).triangles / 2;
+      const Cut all = selectCut(tree.directory, camera, kWidth, kHeight, settings);
       FakeHidden hidden(tree.directory);
       for (const auto& [cell, drawn] : drawingsOf(all))
         if (drawn == Representation::triangles && cell % 3 == 1) hidden.needed.insert(cell);
-      const Cut seen = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings, &hidden);
+      const Cut seen = selectCut(tree.directory, camera, kWidth, kHeight, settings, &hidden);
       EXPECT_LE(seen.triangles, std::max(all.triangles, settings.triangleBudget));
       const std::vector<Drawing> drawings = drawingsOf(seen);
       for (const auto& [cell, drawn] : drawings) EXPECT_FALSE(hidden.hides(cell));

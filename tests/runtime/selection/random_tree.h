@@ -23,7 +23,6 @@ class RandomTree {
   RandomTree(unsigned seed, const Grid& grid, uint64_t mostTriangles = 1000)
       : random_(seed), mostTriangles_(mostTriangles) {
     directory.model.grid = grid;
-    directory.model.settings.imageSize = 64;
     directory.pages.push_back({.storedBytes = 1000});  // of every cell
     directory.cells.push_back(cell({}, kNone));
     for (uint32_t i = 0; i < directory.cells.size(); ++i)
@@ -76,7 +75,10 @@ class RandomTree {
       record.geometryPageCount = 1;
     }
     if (record.triangles % 2 == 0) measure(record);
+    record.form = kForms[record.triangles % kForms.size()];
   }
+  static constexpr std::array<ViewForm, 4> kForms = {{{12, 64}, {42, 64}, {162, 32}, {42, 128}}};
+
   // Errors of any shape.
   static void measure(CellRecord& record) {
     for (size_t scale = 0; scale < kErrorScales; ++scale) {
@@ -93,11 +95,6 @@ class RandomTree {
   std::mt19937 random_;
   uint64_t mostTriangles_;
 };
-
-inline const Viewpoints& viewpoints() {
-  static const Viewpoints set = *Viewpoints::create(42);
-  return set;
-}
 
 inline bool isUnder(const Directory& directory, uint32_t cell, uint32_t ancestor) {
   for (; cell != kNone; cell = directory.cells[cell].parent)
@@ -131,13 +128,13 @@ class Oracle {
   Oracle(const Directory& directory, const Camera& camera, const SelectionSettings& settings)
       : directory_(directory), camera_(camera), settings_(settings), visible_(directory.cells.size(), false) {
     // What is in the frustum is not this oracle's business: culling has its own tests.
-    for (const CutEntry& entry :
-         selectCut(directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::triangles)).entries)
+    for (const CutEntry& entry : selectCut(directory, camera, kWidth, kHeight, mode(RenderMode::triangles)).entries)
       for (uint32_t cell = entry.cell; cell != kNone; cell = directory.cells[cell].parent) visible_[cell] = true;
   }
 
   double texelPixels(uint32_t cell) const {
-    return pixels(cell, texelSize(64) * cellHalfSide(directory_.model.grid, directory_.cells[cell].key));
+    const CellRecord& record = directory_.cells[cell];
+    return pixels(cell, texelSize(record.form.imageSize) * cellHalfSide(directory_.model.grid, record.key));
   }
   double meshPixels(uint32_t cell) const {
     const double error = directory_.cells[cell].geometricError;

@@ -34,8 +34,8 @@ TEST(Selection, aRayMeetsTheCellsOfACutInTheirOrder) {
     const RandomTree tree(seed, grid);
     SCOPED_TRACE(fmt::format("tree {}", seed));
     for (const glm::dvec3 eye : eyes()) {
-      const Cut cut = selectCut(tree.directory, viewpoints(), cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth, kHeight,
-                                mode(RenderMode::full));
+      const Cut cut =
+          selectCut(tree.directory, cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth, kHeight, mode(RenderMode::full));
       const glm::dvec3 eyeSteps = eye * std::ldexp(1.0, grid.bits);
       for (int i = 0; i < 200; ++i) {
         const glm::dvec3 through = glm::dvec3(normal(random), normal(random), normal(random)) * 0.3 + 0.5;
@@ -64,7 +64,7 @@ TEST(Selection, aCutCoversEveryVisibleLeafExactlyOnce) {
         SCOPED_TRACE(
             fmt::format("tree {} eye {} {} {} mode {}", seed, eye.x, eye.y, eye.z, static_cast<int>(renderMode)));
         const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
-        const Cut cut = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(renderMode, 3000));
+        const Cut cut = selectCut(tree.directory, camera, kWidth, kHeight, mode(renderMode, 3000));
         const CameraAxes axes = cameraAxes(camera);
         const double tanY = std::tan(camera.fovYRad / 2), tanX = tanY * kWidth / kHeight;
         for (uint32_t leaf = 0; leaf < cells.size(); ++leaf) {
@@ -94,13 +94,12 @@ TEST(Selection, modesChooseTheirRepresentations) {
   for (const glm::dvec3 eye : eyes()) {
     const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
     for (const CutEntry& entry :
-         selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::triangles)).entries)
+         selectCut(tree.directory, camera, kWidth, kHeight, mode(RenderMode::triangles)).entries)
       EXPECT_TRUE(entry.representation == Representation::triangles && cells[entry.cell].childCount == 0);
     for (const CutEntry& entry :
-         selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::impostors)).entries)
+         selectCut(tree.directory, camera, kWidth, kHeight, mode(RenderMode::impostors)).entries)
       EXPECT_EQ(entry.representation == Representation::impostor, cells[entry.cell].firstViewPage != kNone);
-    for (const CutEntry& entry :
-         selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::meshes)).entries) {
+    for (const CutEntry& entry : selectCut(tree.directory, camera, kWidth, kHeight, mode(RenderMode::meshes)).entries) {
       EXPECT_EQ(entry.representation == Representation::triangles, cells[entry.cell].childCount == 0);
       EXPECT_EQ(entry.representation == Representation::mesh, cells[entry.cell].childCount > 0);
     }
@@ -113,23 +112,23 @@ TEST(Selection, impostorsKeepTheLevelRuleAndTheNearestView) {
   size_t inner = 0;
   for (const glm::dvec3 eye : eyes()) {
     const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
-    const Cut cut =
-        selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::automatic, 1'000'000'000));
+    const Cut cut = selectCut(tree.directory, camera, kWidth, kHeight, mode(RenderMode::automatic, 1'000'000'000));
     for (const CutEntry& entry : cut.entries) {
       if (entry.representation != Representation::impostor) continue;
       const CellRecord& cell = tree.directory.cells[entry.cell];
       inner += cell.childCount > 0;
       const glm::dvec3 nearest =
           glm::min(glm::max(eye, grid.worldFromGrid(cell.content.min)), grid.worldFromGrid(cell.content.max));
-      const double texel = texelSize(64) * cellHalfSide(grid, cell.key);
+      const double texel = texelSize(cell.form.imageSize) * cellHalfSide(grid, cell.key);
       const double pixel = glm::length(eye - nearest) * 2 * std::tan(camera.fovYRad / 2) / kHeight;
       if (cell.childCount > 0) {
         EXPECT_LE(texel, kTexelPixels * pixel * (1 + 1e-9));
         EXPECT_GT(glm::length(eye - cellCentre(grid, cell.key)), std::sqrt(3.0) * cellHalfSide(grid, cell.key));
       }
       const glm::dvec3 middle = glm::dvec3(cell.content.min + cell.content.max) * (0.5 * grid.step());
-      EXPECT_EQ(static_cast<int>(entry.view), viewpoints().nearest(eye - middle));
-      const Viewpoints::Triple expected = viewpoints().nearestThree(eye - middle);
+      const Viewpoints viewpoints = *Viewpoints::create(cell.form.views);
+      EXPECT_EQ(static_cast<int>(entry.view), viewpoints.nearest(eye - middle));
+      const Viewpoints::Triple expected = viewpoints.nearestThree(eye - middle);
       EXPECT_EQ(entry.blend.views, expected.views);
       for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(entry.blend.weights[i], expected.weights[i], 1e-9);
     }
@@ -147,7 +146,7 @@ TEST(Selection, meshesAloneKeepToTheirErrorWithTheFewestTriangles) {
         SCOPED_TRACE(fmt::format("tree {} eye {} {} {} pixels {}", seed, eye.x, eye.y, eye.z, meshPixels));
         const Camera camera = cameraAt(grid, eye, {0.51, 0.52, 0.53});
         const SelectionSettings settings = mode(RenderMode::meshes, 0, meshPixels);
-        const Cut cut = selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, settings);
+        const Cut cut = selectCut(tree.directory, camera, kWidth, kHeight, settings);
         const Oracle oracle(tree.directory, camera, settings);
         for (const CutEntry& entry : cut.entries) {
           const bool mesh = entry.representation == Representation::mesh;
@@ -193,8 +192,7 @@ TEST(Selection, nearlyTheBestOfAllCutsWithinABudgetOfTriangles) {
       const std::vector<double> least = oracle.leastCost(0, tree.directory.cells[0].triangles);
       for (const uint64_t budget : {0u, 5u, 20u, 60u, 1000000u}) {
         SCOPED_TRACE(fmt::format("tree {} eye {} {} {} budget {}", seed, eye.x, eye.y, eye.z, budget));
-        const Cut cut =
-            selectCut(tree.directory, viewpoints(), camera, kWidth, kHeight, mode(RenderMode::automatic, budget));
+        const Cut cut = selectCut(tree.directory, camera, kWidth, kHeight, mode(RenderMode::automatic, budget));
         uint64_t sum = 0;
         for (const CutEntry& entry : cut.entries) {
           meshes += entry.representation == Representation::mesh;
@@ -237,11 +235,10 @@ TEST(Selection, aCutDoesNotDependOnScaleOrOffset) {
     moved.model.grid = grid;
     for (CellRecord& cell : moved.cells) cell.geometricError *= grid.side;  // of the unit tree: model units
     for (const glm::dvec3 eye : {glm::dvec3(-2, 0.31, 0.43), glm::dvec3(0.31, 0.62, 0.13), glm::dvec3(3, 4, 5)}) {
-      const auto a =
-          selectCut(unit.directory, viewpoints(), cameraAt(unit.directory.model.grid, eye, {0.51, 0.52, 0.53}), kWidth,
-                    kHeight, mode(RenderMode::automatic, 5000));
-      const auto b = selectCut(moved, viewpoints(), cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth, kHeight,
-                               mode(RenderMode::automatic, 5000));
+      const auto a = selectCut(unit.directory, cameraAt(unit.directory.model.grid, eye, {0.51, 0.52, 0.53}), kWidth,
+                               kHeight, mode(RenderMode::automatic, 5000));
+      const auto b =
+          selectCut(moved, cameraAt(grid, eye, {0.51, 0.52, 0.53}), kWidth, kHeight, mode(RenderMode::automatic, 5000));
       ASSERT_EQ(a.entries.size(), b.entries.size());
       for (size_t i = 0; i < a.entries.size(); ++i) {
         EXPECT_EQ(a.entries[i].cell, b.entries[i].cell);
@@ -255,7 +252,7 @@ TEST(Selection, aCutDoesNotDependOnScaleOrOffset) {
 TEST(Selection, whatLiesBesideTheFrustumIsCulled) {
   const RandomTree tree(1, Grid{{0, 0, 0}, 1, 24});
   const Camera away = cameraAt(tree.directory.model.grid, {3, 0.5, 0.5}, {9, 0.5, 0.5});
-  const Cut cut = selectCut(tree.directory, viewpoints(), away, kWidth, kHeight, mode(RenderMode::automatic));
+  const Cut cut = selectCut(tree.directory, away, kWidth, kHeight, mode(RenderMode::automatic));
   EXPECT_TRUE(cut.entries.empty());
   EXPECT_EQ(cut.culled, 1u);
 }

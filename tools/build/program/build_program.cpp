@@ -30,6 +30,8 @@ struct Arguments {
   std::string simplifier = "collapse";
   std::string measure = "sample";
   std::string lighting = "baked";
+  std::string forms;  // empty: by what else is given
+  bool defaultForm = true;
   std::string sun;  // empty: the default
   std::string up;
   std::string unit;
@@ -42,10 +44,15 @@ struct Arguments {
 void addContentOptions(CLI::App& app, Arguments& arguments) {
   BuildSettings& settings = arguments.options.settings;
   arguments.leafTriangles = std::to_string(settings.leafTriangles);
-  app.add_option("--views", settings.views, "viewpoints per cell")
+  app.add_option("--forms", arguments.forms,
+                 "of each cell's views, their number and size: chosen by measured error, of no more bytes in all than "
+                 "the two below would take for all cells; fixed: these for all cells; default: fixed where one of the "
+                 "two is given, else chosen")
+      ->check(CLI::IsMember({"chosen", "fixed"}));
+  app.add_option("--views", settings.form.views, "viewpoints per cell")
       ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
       ->capture_default_str();
-  app.add_option("--image-size", settings.imageSize, "texels along a view's edge")
+  app.add_option("--image-size", settings.form.imageSize, "texels along a view's edge")
       ->check(CLI::IsMember({"16", "32", "64", "128", "256", "512", "1024"}))
       ->capture_default_str();
   app.add_option("--samples", settings.samples, "samples per texel")
@@ -169,27 +176,46 @@ void addExpected(BuildSummary& summary, const MeasureReport& measured) {
   }
 }
 
-void addAlternatives(BuildSummary& summary, const MeasureReport& measured) {
-  if (measured.cells == 0) return;
-  for (size_t set = 0; set < kAlternativeViews.size(); ++set)
-    for (size_t size = 0; size < kAlternativeSizes.size(); ++size) {
-      const AlternativeMean& mean = measured.alternatives[set][size];
-      summary.alternatives.push_back(
-          {kAlternativeViews[set], kAlternativeSizes[size], mean.depthCorrected, mean.blended, mean.bytes});
-    }
+void addForms(BuildSummary& summary, const MeasureReport& measured) {
+  for (const KindForms& kind : measured.forms.kinds) {
+    const ViewForm form = candidateForm(kind.chosen);
+    summary.forms.push_back({fmt::format("level {} {}", kind.kind.level, kind.kind.leaf ? "leaves" : "inner"),
+                             kind.cells, form.views, form.imageSize, kind.means.bytes[kind.chosen]});
+  }
 }
 
-nlohmann::ordered_json alternativesJson(const MeasureReport& measured) {
-  BuildSummary summary;
-  addAlternatives(summary, measured);
+nlohmann::ordered_json candidatesJson(const FormMeans& means) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const BuildSummary::Alternative& row : summary.alternatives)
-    json.push_back({{"views", row.views},
-                    {"imageSize", row.imageSize},
-                    {"depthCorrected", row.errorA},
-                    {"blended", row.errorB},
-                    {"bytesOfCell", row.bytes}});
+  for (size_t i = 0; i < kCandidates; ++i)
+    json.push_back({{"views", candidateForm(i).views},
+                    {"imageSize", candidateForm(i).imageSize},
+                    {"bytesOfCell", means.bytes[i]},
+                    {"depthCorrected", means.candidates[i]},
+                    {"blended", means.blended[i]}});
   return json;
+}
+
+nlohmann::ordered_json formsJson(const ChosenForms& forms) {
+  const auto pointJson = [](const FormsPoint& point) {
+    return nlohmann::ordered_json{{"bytes", point.bytes}, {"error", point.error}};
+  };
+  nlohmann::ordered_json kinds = nlohmann::ordered_json::array(), pareto = nlohmann::ordered_json::array();
+  for (const FormsPoint& point : forms.pareto) pareto.push_back(pointJson(point));
+  for (const KindForms& kind : forms.kinds)
+    kinds.push_back({{"level", kind.kind.level},
+                     {"leaves", kind.kind.leaf},
+                     {"cells", kind.cells},
+                     {"measured", kind.measured},
+                     {"share", kind.share},
+                     {"views", candidateForm(kind.chosen).views},
+                     {"imageSize", candidateForm(kind.chosen).imageSize},
+                     {"triangles", kind.means.triangles},
+                     {"candidates", candidatesJson(kind.means)}});
+  return {{"picturePixels", kPictureEdges},
+          {"fixed", pointJson(forms.fixed)},
+          {"chosen", pointJson(forms.chosen)},
+          {"pareto", pareto},
+          {"kinds", kinds}};
 }
 
 nlohmann::ordered_json measuredJson(const BuildResult& result) {
@@ -209,7 +235,7 @@ nlohmann::ordered_json measuredJson(const BuildResult& result) {
           {"cpuSeconds", result.cpuSeconds.measure},
           {"unit", measured.unit},
           {"expected", expected},
-          {"alternatives", alternativesJson(measured)}};
+          {"forms", formsJson(measured.forms)}};
 }
 
 BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
@@ -240,7 +266,7 @@ BuildSummary summaryOf(const BuildResult& result, const BuildOptions& options) {
   summary.memoryLimit = options.memoryBytes;
   addLeftOut(summary, report);
   addExpected(summary, result.measured);
-  addAlternatives(summary, result.measured);
+  addForms(summary, result.measured);
   return summary;
 }
 
@@ -282,6 +308,12 @@ Result<> chooseMemory(Arguments& arguments) {
   return fail(ErrorKind::invalidArgument, "--pack-budget: expected at least 1 byte, found 0");
 }
 
+// By default where nothing says otherwise, and something is measured.
+bool chooseForms(const Arguments& arguments) {
+  if (!arguments.forms.empty()) return arguments.forms == "chosen";
+  return arguments.defaultForm && arguments.measure != "off";
+}
+
 Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   if (arguments.mpi && crew == nullptr) return becomeMpi(argv);
   BuildSettings& settings = arguments.options.settings;
@@ -289,6 +321,7 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   settings.measure = arguments.measure == "off"   ? Measure::off
                      : arguments.measure == "all" ? Measure::all
                                                   : Measure::sample;
+  settings.forms = chooseForms(arguments) ? Forms::chosen : Forms::fixed;
   settings.lighting = arguments.lighting == "relightable" ? Lighting::relightable : Lighting::baked;
   if (!arguments.sun.empty()) {
     FARCELL_ASSIGN(settings.sun, parseSun("--sun", arguments.sun));
@@ -350,7 +383,10 @@ int buildProgram(int argc, char** argv, Crew* crew) {
       "                    budgets in bytes; at the end {\"event\": \"done\", \"seconds\"}\n");
   Arguments arguments;
   addOptions(app, arguments);
-  return runProgram(app, argc, argv, [&] { return run(arguments, crew, argv); });
+  return runProgram(app, argc, argv, [&] {
+    arguments.defaultForm = app.count("--views") + app.count("--image-size") == 0;
+    return run(arguments, crew, argv);
+  });
 }
 
 }  // namespace farcell

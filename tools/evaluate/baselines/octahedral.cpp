@@ -45,13 +45,13 @@ uint64_t pageBytes(const Directory& directory, const std::set<uint32_t>& pages) 
   return bytes;
 }
 
-void addViewPages(const Directory& directory, const Viewpoints& viewpoints, const CutEntry& entry, ImpostorKind kind,
-                  std::set<uint32_t>& pages) {
+void addViewPages(const Directory& directory, const CutEntry& entry, ImpostorKind kind, std::set<uint32_t>& pages) {
+  const CellRecord& cell = directory.cells[entry.cell];
+  const Viewpoints& viewpoints = Viewpoints::of(cell.form.views);
   std::set<int> groups = {viewpoints.group(static_cast<int>(entry.view))};
   if (kind == ImpostorKind::depthCorrected) groups.insert(viewpoints.group(static_cast<int>(entry.secondView)));
   if (kind == ImpostorKind::blended)
     for (const int view : entry.blend.views) groups.insert(viewpoints.group(view));
-  const CellRecord& cell = directory.cells[entry.cell];
   for (uint32_t i = 0; i < cell.viewPageCount; ++i) {
     const uint32_t page = cell.firstViewPage + i;
     if (groups.contains(static_cast<int>(directory.pages[page].group))) pages.insert(page);
@@ -140,12 +140,12 @@ FrameStats OctahedralImpostor::draw(const Camera& camera, int width, int height,
   return stats;
 }
 
-uint64_t residentBytes(const Directory& directory, const Viewpoints& viewpoints, const Cut& cut, ImpostorKind kind) {
+uint64_t residentBytes(const Directory& directory, const Cut& cut, ImpostorKind kind) {
   std::set<uint32_t> pages;
   for (const CutEntry& entry : cut.entries) {
     const CellRecord& cell = directory.cells[entry.cell];
     if (entry.representation == Representation::impostor) {
-      addViewPages(directory, viewpoints, entry, kind, pages);
+      addViewPages(directory, entry, kind, pages);
       continue;
     }
     for (uint32_t i = 0; i < cell.geometryPageCount; ++i) pages.insert(cell.firstGeometryPage + i);

@@ -38,6 +38,6 @@ class OctahedralImpostor {
 };
 
 // What a frame of the pack's own renderer needs in memory, decoded, to draw the cut: the pages of its cells.
-uint64_t residentBytes(const Directory& directory, const Viewpoints& viewpoints, const Cut& cut, ImpostorKind kind);
+uint64_t residentBytes(const Directory& directory, const Cut& cut, ImpostorKind kind);
 
 }  // namespace farcell

@@ -91,8 +91,9 @@ Json packJson(const std::string& fileName, uint64_t bytes, const Directory& dire
           {"source", directory.sourceName},
           {"sourceHash", fmt::format("{:016x}", directory.sourceHash)},
           {"triangles", directory.report.inputTriangles},
-          {"views", settings.views},
-          {"imageSize", settings.imageSize},
+          {"views", settings.form.views},
+          {"imageSize", settings.form.imageSize},
+          {"forms", settings.forms == Forms::chosen ? "chosen" : "fixed"},
           {"samples", settings.samples},
           {"leafTriangles", settings.leafTriangles},
           {"lighting", settings.lighting == Lighting::relightable ? "relightable" : "baked"}};

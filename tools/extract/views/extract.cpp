@@ -30,12 +30,8 @@ const char* nameOf(ViewChannel channel) {
 
 class Extractor {
  public:
-  Extractor(const PackFile& pack, const Viewpoints& viewpoints, const ExtractSettings& settings)
-      : pack_(pack),
-        directory_(pack.directory()),
-        viewpoints_(viewpoints),
-        settings_(settings),
-        imageSize_(directory_.model.settings.imageSize) {}
+  Extractor(const PackFile& pack, const ExtractSettings& settings)
+      : pack_(pack), directory_(pack.directory()), settings_(settings) {}
 
   Result<Json> run() {
     FARCELL_TRY(checkLimits());
@@ -45,27 +41,40 @@ class Extractor {
     Json files = Json::array();
     for (const uint32_t cell : settings_.cells) {
       FARCELL_ASSIGN(const std::vector<ViewImage> views, wantedViews(cell));
-      empty_ += settings_.views.size() - views.size();
+      empty_ += viewsOf(cell).size() - views.size();
       FARCELL_TRY(settings_.atlas ? writeAtlas(cell, views, files) : writeViews(cell, views, files));
     }
     return Json{{"written", files}, {"empty", empty_}};
   }
 
  private:
-  int columns() const { return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(settings_.views.size())))); }
-  int rows() const { return (static_cast<int>(settings_.views.size()) + columns() - 1) / columns(); }
+  const ViewForm& formOf(uint32_t cell) const { return directory_.cells[cell].form; }
+  // Of those that are asked for, the ones of the cell's set.
+  std::span<const uint32_t> viewsOf(uint32_t cell) const {
+    const auto end = std::lower_bound(settings_.views.begin(), settings_.views.end(), formOf(cell).views,
+                                      [](uint32_t view, int count) { return static_cast<int>(view) < count; });
+    return {settings_.views.begin(), end};
+  }
+  int columns(uint32_t cell) const {
+    return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(viewsOf(cell).size()))));
+  }
+  int rows(uint32_t cell) const { return (static_cast<int>(viewsOf(cell).size()) + columns(cell) - 1) / columns(cell); }
 
   Result<> checkLimits() const {
     if (settings_.channel == ViewChannel::normal && directory_.model.settings.lighting == Lighting::baked)
       return fail(ErrorKind::unsupported, "{}: the views of a pack of baked light have no normals", pack_.path());
-    const uint64_t files = settings_.cells.size() * (settings_.atlas ? 1 : settings_.views.size());
+    uint64_t files = 0;
+    for (const uint32_t cell : settings_.cells) files += settings_.atlas ? 1 : viewsOf(cell).size();
     if (files > kMaxExtractedFiles)
       return fail(ErrorKind::exhausted, "{} pictures: at most {} are written at once; choose cells or views", files,
                   kMaxExtractedFiles);
-    if (settings_.atlas && columns() * imageSize_ > kMaxAtlasEdge)
-      return fail(ErrorKind::exhausted,
-                  "an atlas of {} views of {} texels: its edge would be {}, at most {} is allowed",
-                  settings_.views.size(), imageSize_, columns() * imageSize_, kMaxAtlasEdge);
+    for (const uint32_t cell : settings_.cells) {
+      const int imageSize = formOf(cell).imageSize;
+      if (settings_.atlas && columns(cell) * imageSize > kMaxAtlasEdge)
+        return fail(ErrorKind::exhausted,
+                    "an atlas of {} views of {} texels: its edge would be {}, at most {} is allowed",
+                    viewsOf(cell).size(), imageSize, columns(cell) * imageSize, kMaxAtlasEdge);
+    }
     return {};
   }
 
@@ -78,7 +87,7 @@ class Extractor {
       FARCELL_TRY(checkInterrupt());
       const uint32_t group = directory_.pages[page].group;
       const bool wanted = std::any_of(settings_.views.begin(), settings_.views.end(), [&](uint32_t view) {
-        return static_cast<uint32_t>(viewpoints_.group(static_cast<int>(view))) == group;
+        return static_cast<uint32_t>(Viewpoints::of(record.form.views).group(static_cast<int>(view))) == group;
       });
       if (!wanted) continue;
       FARCELL_ASSIGN(ViewPage content, pack_.readViews(page));
@@ -98,8 +107,8 @@ class Extractor {
             {"key", fmt::format("{}/{}/{}/{}", key.level, key.x, key.y, key.z)}};
   }
   // (x, y): where the upper left corner of its rectangle lies in the picture.
-  Json viewJson(const ViewImage& view, int x, int y) const {
-    const glm::dvec3 d = viewpoints_.directions()[view.view];
+  Json viewJson(uint32_t cell, const ViewImage& view, int x, int y) const {
+    const glm::dvec3 d = Viewpoints::of(formOf(cell).views).directions()[view.view];
     return {{"view", view.view},
             {"direction", {d.x, d.y, d.z}},
             {"rectangle", {x, y, view.width, view.height}},
@@ -107,7 +116,9 @@ class Extractor {
             {"depth", {view.depthMin, view.depthMax}}};
   }
   // Where a view's rectangle lies in its square, from the top.
-  int topOf(const ViewImage& view) const { return imageSize_ - static_cast<int>(view.y0 + view.height); }
+  int topOf(uint32_t cell, const ViewImage& view) const {
+    return formOf(cell).imageSize - static_cast<int>(view.y0 + view.height);
+  }
 
   Result<> writeViews(uint32_t cell, const std::vector<ViewImage>& views, Json& files) const {
     for (const ViewImage& view : views) {
@@ -117,14 +128,14 @@ class Extractor {
       int x = 0, y = 0;
       if (settings_.full) {
         x = static_cast<int>(view.x0);
-        y = topOf(view);
-        Picture square = blankPicture(imageSize_, imageSize_, picture.channels);
+        y = topOf(cell, view);
+        Picture square = blankPicture(formOf(cell).imageSize, formOf(cell).imageSize, picture.channels);
         place(picture, x, y, square);
         picture = std::move(square);
       }
       FARCELL_TRY(writeImageFile(path, picture));
       Json file = cellJson(cell, path.string());
-      file.update(viewJson(view, x, y));
+      file.update(viewJson(cell, view, x, y));
       files.push_back(std::move(file));
     }
     return {};
@@ -133,7 +144,8 @@ class Extractor {
   // A view's tile is its place among the wanted ones, whichever of them are empty.
   Result<> writeAtlas(uint32_t cell, const std::vector<ViewImage>& views, Json& files) const {
     if (views.empty()) return {};
-    Picture atlas = blankPicture(columns() * imageSize_, rows() * imageSize_, channelCount(settings_.channel));
+    const int imageSize = formOf(cell).imageSize, across = columns(cell);
+    Picture atlas = blankPicture(across * imageSize, rows(cell) * imageSize, channelCount(settings_.channel));
     const std::string name = fmt::format("cell-{}-{}", cell, nameOf(settings_.channel));
     const std::filesystem::path path = settings_.directory / (name + "." + settings_.format);
     Json file = cellJson(cell, path.string());
@@ -141,10 +153,10 @@ class Extractor {
     for (const ViewImage& view : views) {
       const auto at = std::lower_bound(settings_.views.begin(), settings_.views.end(), view.view);
       const int tile = static_cast<int>(at - settings_.views.begin());
-      const int x = tile % columns() * imageSize_ + static_cast<int>(view.x0);
-      const int y = tile / columns() * imageSize_ + topOf(view);
+      const int x = tile % across * imageSize + static_cast<int>(view.x0);
+      const int y = tile / across * imageSize + topOf(cell, view);
       place(viewPicture(view, settings_.channel), x, y, atlas);
-      tiles.push_back(viewJson(view, x, y));
+      tiles.push_back(viewJson(cell, view, x, y));
     }
     file["views"] = std::move(tiles);
     FARCELL_TRY(writeImageFile(path, atlas));
@@ -155,17 +167,14 @@ class Extractor {
 
   const PackFile& pack_;
   const Directory& directory_;
-  const Viewpoints& viewpoints_;
   const ExtractSettings& settings_;
-  const int imageSize_;
   uint64_t empty_ = 0;
 };
 
 }  // namespace
 
 Result<Json> extractViews(const PackFile& pack, const ExtractSettings& settings) {
-  FARCELL_ASSIGN(const Viewpoints viewpoints, Viewpoints::create(pack.directory().model.settings.views));
-  return Extractor(pack, viewpoints, settings).run();
+  return Extractor(pack, settings).run();
 }
 
 }  // namespace farcell

@@ -26,7 +26,7 @@ Result<ViewChannel> parseChannel(const std::string& text);
 
 struct ExtractSettings {
   std::vector<uint32_t> cells;
-  std::vector<uint32_t> views;
+  std::vector<uint32_t> views;  // rising; of a cell of fewer views those it has
   ViewChannel channel = ViewChannel::colour;
   bool full = false;                // the whole square of a view, not only the rectangle that holds anything
   bool atlas = false;               // one picture a cell: all views in a grid of whole squares, with a JSON file beside

@@ -66,10 +66,7 @@ class Recoder {
   }
 
   Result<RecodedPage> views(uint32_t page) const {
-    const Directory& directory = pack_.directory();
-    const BuildSettings& settings = directory.model.settings;
-    const ViewLimits limits{static_cast<uint32_t>(settings.views), static_cast<uint32_t>(settings.imageSize),
-                            directory.pages[page].decodedBytes};
+    const ViewLimits limits = pack_.viewLimits(page);
     FARCELL_ASSIGN(const ViewPage before, pack_.readViews(page));
     FARCELL_ASSIGN(const std::vector<std::byte> stored, pack_.readStored(page));
     FARCELL_ASSIGN(std::vector<EncodedView> views, viewsOfPage(stored, limits));
