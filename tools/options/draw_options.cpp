@@ -88,8 +88,8 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   app.add_option("--samples", options.samples,
-                 "samples per pixel; with 4 or 16 cells change how they are drawn without a pop")
-      ->check(CLI::IsMember({"1", "4", "16"}))
+                 "samples per pixel; with 4 or more cells change how they are drawn without a pop")
+      ->check(CLI::IsMember({"1", "4", "8", "16", "64"}))
       ->capture_default_str();
   addLightOptions(app, options.light);
   app.add_option("--background", options.background, "colour behind the model, 0 to 255 each; default: " + background)
