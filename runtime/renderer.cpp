@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "cache/base/process.h"
@@ -20,6 +21,9 @@ namespace {
 
 // Of a moving camera's picture.
 int passesOf(const RenderSettings& settings) { return std::max(settings.samplesPerPixel / kMultisamples, 1); }
+
+// Evenly spread, by the golden ratio.
+double ditherOf(int pass) { return std::fmod(pass * 0.6180339887498949, 1.0); }
 
 // Where the samples of a pixel lie, y up.
 std::vector<glm::vec2> samplePositions() {
@@ -86,9 +90,9 @@ struct Shown {
   bool operator==(const Shown&) const = default;
 };
 
-// Some of those of a picture: from first to before end.
+// Some of the passes of a picture that is to have so many in all: from first to before end.
 struct Passes {
-  int first, end;
+  int first, end, all;
   int size() const { return end - first; }
 };
 
@@ -118,8 +122,8 @@ struct Renderer::Impl {
   const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
   Result<SampleMean*> meanFor(const RenderSettings& settings, bool withCoverage);
   Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, Passes passes, FrameStats& stats);
-  Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage, int pass,
-                    FrameStats& stats);
+  Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
+                    Passes pass, FrameStats& stats);
   Result<> gather(const Camera& camera, const RenderSettings& settings, bool withCoverage, Passes passes,
                   FrameStats& stats);
   Result<> drawWhole(const Camera& camera, const RenderSettings& settings, bool withCoverage, FrameStats& stats);
@@ -169,13 +173,15 @@ Result<SampleMean*> Renderer::Impl::meanFor(const RenderSettings& settings, bool
 }
 
 Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut,
-                                  bool withCoverage, int pass, FrameStats& stats) {
+                                  bool withCoverage, Passes pass, FrameStats& stats) {
   const int samples = settings.samplesPerPixel > 1 ? kMultisamples : 1;
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
-  const FrameCamera frameCamera = makeFrameCamera(
-      pack.directory(), camera, {settings.width, settings.height, -sampleMove(pass), samples, settings.light}, cut);
+  const FrameCamera frameCamera = makeFrameCamera(pack.directory(), camera,
+                                                  {settings.width, settings.height, -sampleMove(pass.first),
+                                                   samples * pass.all, settings.light, ditherOf(pass.first)},
+                                                  cut);
   ShowPlan plan =
       planShow(settings.show, pack.directory(), cut, frameCamera, settings.kind, settings.selection.texelPixels);
   FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, plan, counts));
@@ -228,7 +234,7 @@ Result<> Renderer::Impl::gather(const Camera& camera, const RenderSettings& sett
   if (passes.first == 0) sum->clear();
   FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, passes, stats));
   for (int pass = passes.first; pass < passes.end; ++pass) {
-    FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, pass, stats));
+    FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, {pass, pass + 1, passes.all}, stats));
     sum->add(*target);
   }
   tell(cut, settings, passes.size(), stats);
@@ -239,9 +245,9 @@ Result<> Renderer::Impl::gather(const Camera& camera, const RenderSettings& sett
 Result<> Renderer::Impl::drawWhole(const Camera& camera, const RenderSettings& settings, bool withCoverage,
                                    FrameStats& stats) {
   const int passes = passesOf(settings);
-  if (passes > 1) return gather(camera, settings, withCoverage, {0, passes}, stats);
-  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, {0, 1}, stats));
-  FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, 0, stats));
+  if (passes > 1) return gather(camera, settings, withCoverage, {0, passes, passes}, stats);
+  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, {0, 1, 1}, stats));
+  FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, {0, 1, 1}, stats));
   target->resolve();
   tell(cut, settings, 1, stats);
   return {};
@@ -279,7 +285,7 @@ Result<FrameStats> Renderer::Impl::showNext(const Shown& next, GLuint framebuffe
     if (passes == kMostPasses) {
       stats = shownStats;
     } else {
-      FARCELL_TRY(gather(next.camera, settings, false, {passes, passes + 1}, stats));
+      FARCELL_TRY(gather(next.camera, settings, false, {passes, passes + 1, kMostPasses}, stats));
     }
     colour = mean->colour();
   }

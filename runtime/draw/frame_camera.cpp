@@ -45,8 +45,8 @@ FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, co
                     glm::ivec4(whole, 0),
                     glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
                     glm::vec4(lightDirection(view.light, model.settings, camera), 0.0f),
-                    glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize), 0.0f,
-                              static_cast<float>(std::log2(view.samples) / 2)),
+                    glm::vec4(static_cast<float>(imageSize), 1.0f / static_cast<float>(imageSize),
+                              static_cast<float>(view.dither), static_cast<float>(std::log2(view.samples) / 2)),
                     glm::vec4(0)};
   return frame;
 }

@@ -59,15 +59,17 @@ TEST(Backdrop, aSkyIsUprightByTheModelWhereverTheCameraLooks) {
 
 TEST(Backdrop, aCameraThatRestsIsShownThePictureOf64SamplesInAFrameForEachPass) {
   DrawnPack pack = sphere();
-  const RenderSettings settings = sized(120, 90, RenderMode::full, 4), finer = sized(120, 90, RenderMode::full, 64);
+  RenderSettings settings = sized(120, 90, RenderMode::full, 4), finer = sized(120, 90, RenderMode::full, 64);
   const FrameTarget window(120, 90, 1, false);
   const auto shownFrom = [&](const Camera& camera) {
     const auto stats = pack.renderer->show(camera, settings, kStripes, window.framebuffer());
     if (!stats) throw std::runtime_error(stats.error().message);
     return stats->settled;
   };
-  for (const double height : {4.0, 5.0}) {  // a camera that moves on begins anew
+  for (const auto& [height, mode] :  // a camera that moves on begins anew
+       {std::pair{4.0, RenderMode::full}, {5.0, RenderMode::full}, {5.0, RenderMode::impostors}}) {
     const Camera camera = lookAt({20, 3, height}, {0, 0, 0});
+    settings.selection.mode = finer.selection.mode = mode;
     const auto first = pack.renderer->capture(camera, settings, kStripes);
     const auto last = pack.renderer->capture(camera, finer, kStripes);
     ASSERT_TRUE(first && last);
