@@ -9,7 +9,7 @@
 namespace farcell {
 namespace {
 
-// In 1/32 of a pixel, as tests/bench/near/pattern.cpp found them.
+// In 1/32 of a pixel, as tests/bench/near/pattern found them.
 constexpr std::array<std::array<int, 2>, kMostPasses> kMoves = {{{0, 0},
                                                                  {21, 2},
                                                                  {11, 1},
