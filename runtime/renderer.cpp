@@ -267,7 +267,8 @@ Result<> Renderer::Impl::paintOver(const Shown& picture, GLuint colour, GLuint f
   return {};
 }
 
-// While the camera rests, passes are added to what a moving one is shown, one a frame; then nothing is drawn any more.
+// While the camera rests, passes are added to what a moving one is shown, one a frame (the first two at once: one alone
+// was shown already); then nothing is drawn any more.
 Result<FrameStats> Renderer::Impl::showNext(const Shown& next, GLuint framebuffer) {
   const RenderSettings& settings = next.settings;
   FARCELL_TRY(checkSettings(settings));
@@ -285,7 +286,7 @@ Result<FrameStats> Renderer::Impl::showNext(const Shown& next, GLuint framebuffe
     if (passes == kMostPasses) {
       stats = shownStats;
     } else {
-      FARCELL_TRY(gather(next.camera, settings, false, {passes, passes + 1, kMostPasses}, stats));
+      FARCELL_TRY(gather(next.camera, settings, false, {passes, std::max(passes + 1, 2), kMostPasses}, stats));
     }
     colour = mean->colour();
   }

@@ -16,7 +16,7 @@ struct FrameUniforms {
   ivec4 eyeSteps;    // xyz: integer part of the eye's position on the grid
   vec4 eyeFraction;  // xyz: the rest of it, in steps; w: near distance, root sides
   vec4 light;        // xyz: towards it, unit, world axes
-  vec4 image;        // x: edge of a view in texels; y: 1 / x; w: what more samples add to the level of detail
+  vec4 image;        // x: edge of a view in texels; y: 1 / x; z: adds to chance; w: log2 of samples on a pixel's edge
   vec4 depthScale;   // for depthGrey (show.h), of depths in root sides
 };
 

@@ -57,7 +57,7 @@ TEST(Backdrop, aSkyIsUprightByTheModelWhereverTheCameraLooks) {
   EXPECT_GT(at(*level, 32, 61)[0], 50);
 }
 
-TEST(Backdrop, aCameraThatRestsIsShownThePictureOf64SamplesInAFrameForEachPass) {
+TEST(Backdrop, aCameraThatRestsIsShownThePictureOf64SamplesInAFrameForEachPassButTheFirst) {
   DrawnPack pack = sphere();
   RenderSettings settings = sized(120, 90, RenderMode::full, 4), finer = sized(120, 90, RenderMode::full, 64);
   const FrameTarget window(120, 90, 1, false);
@@ -76,7 +76,7 @@ TEST(Backdrop, aCameraThatRestsIsShownThePictureOf64SamplesInAFrameForEachPass) 
     ASSERT_NE(first->rgba, last->rgba);
     EXPECT_FALSE(shownFrom(camera));
     EXPECT_EQ(window.readColour(), first->rgba);
-    for (int frame = 1; frame < kMostPasses; ++frame) EXPECT_FALSE(shownFrom(camera));
+    for (int frame = 1; frame + 1 < kMostPasses; ++frame) EXPECT_FALSE(shownFrom(camera));
     for (int frame = 0; frame < 2; ++frame) {
       EXPECT_TRUE(shownFrom(camera));
       EXPECT_EQ(window.readColour(), last->rgba);
