@@ -5,33 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "cache/base/process.h"
 #include "runtime/draw/frame_camera.h"
 #include "runtime/draw/frame_painter.h"
 #include "runtime/draw/frame_target.h"
+#include "runtime/draw/sample_mean.h"
 #include "runtime/occlusion/occlusion.h"
 #include "runtime/selection/hand_over.h"
 
 namespace farcell {
 namespace {
 
-constexpr int kMultisamples = 4;
+// Of a moving camera's picture.
+int passesOf(const RenderSettings& settings) { return std::max(settings.samplesPerPixel / kMultisamples, 1); }
 
-// Four moves of the picture, in pixels, that place the usual rotated grid of four samples so that all 16 lie in
-// different columns and rows of a 16 x 16 grid.
-constexpr std::array<std::array<double, 2>, 4> kJitterPx = {
-    {{-1.5 / 16, 0.5 / 16}, {-0.5 / 16, -1.5 / 16}, {0.5 / 16, 1.5 / 16}, {1.5 / 16, -0.5 / 16}}};
-
-constexpr int kPasses = kJitterPx.size();
-
-int framesOf(const RenderSettings& settings) { return settings.samplesPerPixel == 16 ? kPasses : 1; }
-
-glm::dvec2 jitterOf(int frame, int frames) {
-  const auto& jitter = kJitterPx[static_cast<size_t>(frame)];
-  return frames > 1 ? glm::dvec2(jitter[0], jitter[1]) : glm::dvec2(0);
-}
+// Evenly spread, by the golden ratio.
+double ditherOf(int pass) { return std::fmod(pass * 0.6180339887498949, 1.0); }
 
 // Where the samples of a pixel lie, y up.
 std::vector<glm::vec2> samplePositions() {
@@ -60,7 +52,7 @@ class Stopwatch {
 SelectionSettings selectionOf(const RenderSettings& settings) {
   SelectionSettings selection = settings.selection;
   selection.costs = settings.costs.of(static_cast<size_t>(settings.kind), settings.samplesPerPixel);
-  selection.timeBudgetMs /= framesOf(settings);
+  selection.timeBudgetMs /= passesOf(settings);
   return selection;
 }
 
@@ -70,28 +62,17 @@ uint64_t countOf(const Cut& cut, Representation representation) {
   }));
 }
 
-void tell(const Cut& cut, const RenderSettings& settings, FrameStats& stats) {
+void tell(const Cut& cut, const RenderSettings& settings, int passes, FrameStats& stats) {
   stats.triangles = cut.triangles;
   stats.meshes = countOf(cut, Representation::mesh);
   stats.work = cut.work;
-  stats.expectedMs = framesOf(settings) * expectedMs(selectionOf(settings).costs, cut.work);
+  stats.expectedMs = passes * expectedMs(selectionOf(settings).costs, cut.work);
   stats.hiddenCells = cut.hidden.cells;
   stats.hiddenTriangles = static_cast<uint64_t>(cut.hidden.work.triangles);
   stats.hiddenBytes = cut.hidden.storedBytes;
-  stats.hiddenMs = framesOf(settings) * expectedMs(selectionOf(settings).costs, cut.hidden.work);
+  stats.hiddenMs = passes * expectedMs(selectionOf(settings).costs, cut.hidden.work);
   stats.expectedLoss = cut.loss;
   stats.lossBound = cut.lossBound;
-}
-
-void addTo(std::vector<uint16_t>& sums, const std::vector<uint8_t>& values) {
-  sums.resize(values.size());
-  for (size_t i = 0; i < values.size(); ++i) sums[i] = static_cast<uint16_t>(sums[i] + values[i]);
-}
-
-std::vector<uint8_t> meanOf(const std::vector<uint16_t>& sums, int count) {
-  std::vector<uint8_t> result(sums.size());
-  for (size_t i = 0; i < sums.size(); ++i) result[i] = static_cast<uint8_t>((sums[i] + count / 2) / count);
-  return result;
 }
 
 // Pictures of one sample, and what is shown instead of the picture, are of one cut.
@@ -109,9 +90,26 @@ struct Shown {
   bool operator==(const Shown&) const = default;
 };
 
-// Of a picture that is drawn in several.
+// Some of the passes of a picture that is to have so many in all: from first to before end.
 struct Passes {
   int first, end, all;
+  int size() const { return end - first; }
+};
+
+// A cell is hidden where it is in all passes.
+struct HiddenInPasses : HiddenCells {
+  std::vector<Occlusion> passes;
+  bool hides(uint32_t cell) const override {
+    return std::all_of(passes.begin(), passes.end(), [&](const Occlusion& pass) { return pass.hides(cell); });
+  }
+  bool needs(uint32_t cell) const override {
+    return std::any_of(passes.begin(), passes.end(), [&](const Occlusion& pass) { return pass.needs(cell); });
+  }
+  double expectedMs(size_t cells) const {
+    double sum = 0;
+    for (const Occlusion& pass : passes) sum += pass.expectedMs(cells);
+    return sum;
+  }
 };
 
 }  // namespace
@@ -121,11 +119,16 @@ struct Renderer::Impl {
 
   Result<> checkSettings(const RenderSettings& settings) const;
   const FrameTarget& targetFor(int width, int height, int samples, bool withCoverage);
-  Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx, FrameStats& stats);
+  Result<SampleMean*> meanFor(const RenderSettings& settings, bool withCoverage);
+  Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, Passes passes, FrameStats& stats);
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
-                    glm::dvec2 jitterPx, FrameStats& stats);
-  Result<FrameStats> drawOver(const Shown& shown, Passes passes, GLuint framebuffer);
-  Result<FrameStats> showNext(Shown next, GLuint framebuffer);
+                    Passes pass, FrameStats& stats);
+  Result<> gather(const Camera& camera, const RenderSettings& settings, bool withCoverage, Passes passes,
+                  FrameStats& stats);
+  Result<> drawWhole(const Camera& camera, const RenderSettings& settings, bool withCoverage, FrameStats& stats);
+  GLuint wholeColour(const RenderSettings& settings) const;
+  Result<> paintOver(const Shown& picture, GLuint colour, GLuint framebuffer);
+  Result<FrameStats> showNext(const Shown& next, GLuint framebuffer);
 
   const PackFile& pack;
   const std::vector<glm::vec2> multisamples;
@@ -135,17 +138,18 @@ struct Renderer::Impl {
   std::optional<FramePainter> painter;
   std::optional<BackdropPainter> backdropPainter;  // made with the first picture that has a backdrop
   std::optional<FrameTarget> target;
-  std::optional<Shown> shown;         // in the window
-  int restingFrames = 0;              // that it has been the same
-  std::optional<FrameTarget> gather;  // of passes while it is
+  std::optional<SampleMean> mean;  // of the passes of a picture
+  std::optional<Shown> shown;      // in the window; `mean` has passes of it, or none
+  FrameStats shownStats;
 };
 
 Result<> Renderer::Impl::checkSettings(const RenderSettings& settings) const {
   if (settings.width < 1 || settings.height < 1 || settings.width > maxSize || settings.height > maxSize)
     return fail(ErrorKind::invalidArgument, "picture of {} x {}: each edge must lie in 1..{}", settings.width,
                 settings.height, maxSize);
-  if (settings.samplesPerPixel != 1 && settings.samplesPerPixel != 4 && settings.samplesPerPixel != 16)
-    return fail(ErrorKind::invalidArgument, "samples per pixel: expected 1, 4 or 16, found {}",
+  constexpr std::array kSamples = {1, 4, 8, 16, 64};
+  if (std::find(kSamples.begin(), kSamples.end(), settings.samplesPerPixel) == kSamples.end())
+    return fail(ErrorKind::invalidArgument, "samples per pixel: expected {}, found {}", fmt::join(kSamples, ", "),
                 settings.samplesPerPixel);
   return checkLight(settings.light, pack.directory().model.settings, pack.path());
 }
@@ -158,18 +162,27 @@ const FrameTarget& Renderer::Impl::targetFor(int width, int height, int samples,
   return *target;
 }
 
+Result<SampleMean*> Renderer::Impl::meanFor(const RenderSettings& settings, bool withCoverage) {
+  if (!mean || !mean->matches(settings.width, settings.height, withCoverage)) {
+    mean.reset();
+    FARCELL_ASSIGN(mean, SampleMean::create(settings.width, settings.height, withCoverage, multisamples));
+  }
+  return &*mean;
+}
+
 Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut,
-                                  bool withCoverage, glm::dvec2 jitterPx, FrameStats& stats) {
+                                  bool withCoverage, Passes pass, FrameStats& stats) {
   const int samples = settings.samplesPerPixel > 1 ? kMultisamples : 1;
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
-  const FrameCamera frameCamera = makeFrameCamera(
-      pack.directory(), camera, {settings.width, settings.height, jitterPx, samples, settings.light}, cut);
+  const FrameCamera frameCamera = makeFrameCamera(pack.directory(), camera,
+                                                  {settings.width, settings.height, -sampleMove(pass.first),
+                                                   samples * pass.all, settings.light, ditherOf(pass.first)},
+                                                  cut);
   ShowPlan plan =
       planShow(settings.show, pack.directory(), cut, frameCamera, settings.kind, settings.selection.texelPixels);
   FARCELL_TRY(painter->paint(cut, frameCamera, settings.kind, plan, counts));
-  frame.resolve();
   stats.impostors = counts.impostors;
   stats.texels = counts.texels;
   stats.bytesRead += counts.bytesRead;
@@ -177,7 +190,7 @@ Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& se
   return {};
 }
 
-Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& settings, glm::dvec2 jitterPx,
+Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& settings, Passes passes,
                                   FrameStats& stats) {
   const SelectionSettings selection = selectionOf(settings);
   const Directory& directory = pack.directory();
@@ -195,12 +208,16 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
   uint64_t read = 0;
   const std::vector<glm::vec2> samples =
       settings.samplesPerPixel == 1 ? std::vector<glm::vec2>{glm::vec2(0.5f)} : multisamples;
-  FARCELL_ASSIGN(
-      const Occlusion occlusion,
-      Occlusion::of(directory, camera, {settings.width, settings.height, samples, jitterPx}, cut, occluders, read));
-  Cut rest = select(&occlusion);
-  const bool pays = !settings.occlusionMustPay ||
-                    expectedMs(selection.costs, rest.hidden.work) > occlusion.expectedMs(cut.entries.size());
+  HiddenInPasses hidden;
+  for (int pass = passes.first; pass < passes.end; ++pass) {
+    FARCELL_ASSIGN(Occlusion occlusion,
+                   Occlusion::of(directory, camera, {settings.width, settings.height, samples, -sampleMove(pass)}, cut,
+                                 occluders, read));
+    hidden.passes.push_back(std::move(occlusion));
+  }
+  Cut rest = select(&hidden);
+  const bool pays = !settings.occlusionMustPay || passes.size() * expectedMs(selection.costs, rest.hidden.work) >
+                                                      hidden.expectedMs(cut.entries.size());
   occlusionRest.tried(pays);
   stats.occlusionMs += watch.wallMs();
   stats.occlusionBytes += read;
@@ -208,49 +225,75 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
   return pays ? rest : cut;
 }
 
-// Passes are averaged as they come: each is mixed with the mean of those before.
-Result<FrameStats> Renderer::Impl::drawOver(const Shown& picture, Passes passes, GLuint framebuffer) {
-  const auto& [camera, settings, backdrop] = picture;
-  FARCELL_TRY(checkSettings(settings));
+// Adds passes of one cut to the mean.
+Result<> Renderer::Impl::gather(const Camera& camera, const RenderSettings& settings, bool withCoverage, Passes passes,
+                                FrameStats& stats) {
+  FARCELL_ASSIGN(SampleMean * sum, meanFor(settings, withCoverage));
+  if (passes.first == 0) sum->clear();
+  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, passes, stats));
+  for (int pass = passes.first; pass < passes.end; ++pass) {
+    FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, {pass, pass + 1, passes.all}, stats));
+    sum->add(*target);
+  }
+  tell(cut, settings, passes.size(), stats);
+  return {};
+}
+
+// A single pass needs no mean.
+Result<> Renderer::Impl::drawWhole(const Camera& camera, const RenderSettings& settings, bool withCoverage,
+                                   FrameStats& stats) {
+  const int passes = passesOf(settings);
+  if (passes > 1) return gather(camera, settings, withCoverage, {0, passes, passes}, stats);
+  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, {0, 1, 1}, stats));
+  FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, {0, 1, 1}, stats));
+  target->resolve();
+  tell(cut, settings, 1, stats);
+  return {};
+}
+
+GLuint Renderer::Impl::wholeColour(const RenderSettings& settings) const {
+  return passesOf(settings) > 1 ? mean->colour() : target->colour();
+}
+
+Result<> Renderer::Impl::paintOver(const Shown& picture, GLuint colour, GLuint framebuffer) {
   if (!backdropPainter) {
     FARCELL_ASSIGN(BackdropPainter made, BackdropPainter::create());
     backdropPainter.emplace(std::move(made));
   }
-  const Stopwatch watch;
-  FrameStats stats;
-  Cut cut;
-  for (int i = passes.first; i < passes.end; ++i) {
-    FARCELL_ASSIGN(cut, cutOf(camera, settings, jitterOf(i, passes.all), stats));
-    FARCELL_TRY(drawOnce(camera, settings, cut, false, jitterOf(i, passes.all), stats));
-    backdropPainter->paint(*target, backdrop, camera, upVector(pack.directory().model.settings.up), 1.0 / (i + 1),
-                           framebuffer);
-  }
-  stats.wallMs = watch.wallMs();
-  stats.cpuMs = watch.cpuMs();
-  tell(cut, settings, stats);
-  return stats;
+  backdropPainter->paint(colour, {picture.settings.width, picture.settings.height}, picture.backdrop, picture.camera,
+                         upVector(pack.directory().model.settings.up), framebuffer);
+  return {};
 }
 
-// While the camera rests, the passes of 16 samples take the place of the 4 that a moving one is shown, one a frame.
-Result<FrameStats> Renderer::Impl::showNext(Shown next, GLuint framebuffer) {
+// While the camera rests, passes are added to what a moving one is shown, one a frame (the first two at once: one alone
+// was shown already); then nothing is drawn any more.
+Result<FrameStats> Renderer::Impl::showNext(const Shown& next, GLuint framebuffer) {
   const RenderSettings& settings = next.settings;
   FARCELL_TRY(checkSettings(settings));
-  const bool same = shown == next, settled = same && restingFrames == kPasses;
-  restingFrames = same ? std::min(restingFrames + 1, kPasses) : 0;
-  shown = next;
+  const Stopwatch watch;
+  const bool gathers = settings.samplesPerPixel > 1, same = shown == next && gathers;
+  shown.reset();
   FrameStats stats;
-  if (settings.samplesPerPixel != kMultisamples || restingFrames == 0) {
-    FARCELL_ASSIGN(stats, drawOver(next, {0, framesOf(settings), framesOf(settings)}, framebuffer));
-    stats.settled = settings.samplesPerPixel != kMultisamples;
-    return stats;
+  GLuint colour = 0;
+  if (!same) {
+    if (mean) mean->clear();
+    FARCELL_TRY(drawWhole(next.camera, settings, false, stats));
+    colour = wholeColour(settings);
+  } else {
+    const int passes = mean ? mean->passes() : 0;
+    if (passes == kMostPasses) {
+      stats = shownStats;
+    } else {
+      FARCELL_TRY(gather(next.camera, settings, false, {passes, std::max(passes + 1, 2), kMostPasses}, stats));
+    }
+    colour = mean->colour();
   }
-  if (!gather || !gather->matches(settings.width, settings.height, 1, false))
-    gather.emplace(settings.width, settings.height, 1, false);
-  FARCELL_ASSIGN(stats,
-                 drawOver(next, {settled ? 0 : restingFrames - 1, restingFrames, kPasses}, gather->framebuffer()));
-  glBlitNamedFramebuffer(gather->framebuffer(), framebuffer, 0, 0, settings.width, settings.height, 0, 0,
-                         settings.width, settings.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  stats.settled = restingFrames == kPasses;
+  FARCELL_TRY(paintOver(next, colour, framebuffer));
+  stats.wallMs = watch.wallMs();
+  stats.cpuMs = watch.cpuMs();
+  stats.settled = !gathers || (mean && mean->passes() == kMostPasses);
+  shown = next;
+  shownStats = stats;
   return stats;
 }
 
@@ -276,23 +319,19 @@ Result<Renderer> Renderer::create(GlContext&, const PackFile& pack, uint64_t res
 
 Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& settings, FrameImage* image) {
   FARCELL_TRY(impl_->checkSettings(settings));
+  impl_->shown.reset();
+  const Stopwatch watch;
   FrameStats stats;
-  std::vector<uint16_t> colourSums, coverageSums;
-  const int frames = framesOf(settings);
-  for (int i = 0; i < frames; ++i) {
-    const Stopwatch watch;
-    FARCELL_ASSIGN(const Cut cut, impl_->cutOf(camera, settings, jitterOf(i, frames), stats));
-    FARCELL_TRY(impl_->drawOnce(camera, settings, cut, image != nullptr, jitterOf(i, frames), stats));
-    glFinish();
-    stats.wallMs += watch.wallMs();
-    stats.cpuMs += watch.cpuMs();
-    tell(cut, settings, stats);
-    if (image == nullptr) continue;
-    addTo(colourSums, impl_->target->readColour());
-    addTo(coverageSums, impl_->target->readCoverage());
+  FARCELL_TRY(impl_->drawWhole(camera, settings, image != nullptr, stats));
+  glFinish();
+  stats.wallMs = watch.wallMs();
+  stats.cpuMs = watch.cpuMs();
+  if (image == nullptr) return stats;
+  if (passesOf(settings) > 1) {
+    *image = {settings.width, settings.height, impl_->mean->readColour(), impl_->mean->readCoverage()};
+  } else {
+    *image = {settings.width, settings.height, impl_->target->readColour(), impl_->target->readCoverage()};
   }
-  if (image != nullptr)
-    *image = {settings.width, settings.height, meanOf(colourSums, frames), meanOf(coverageSums, frames)};
   return stats;
 }
 
@@ -304,8 +343,11 @@ Result<FrameStats> Renderer::show(const Camera& camera, const RenderSettings& se
 Result<FrameImage> Renderer::capture(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop) {
   FARCELL_TRY(impl_->checkSettings(settings));
   const FrameTarget canvas(settings.width, settings.height, 1, false);
-  const int frames = framesOf(settings);
-  FARCELL_TRY(impl_->drawOver({camera, settings, backdrop}, {0, frames, frames}, canvas.framebuffer()));
+  const Shown picture{camera, settings, backdrop};
+  impl_->shown.reset();
+  FrameStats stats;
+  FARCELL_TRY(impl_->drawWhole(camera, settings, false, stats));
+  FARCELL_TRY(impl_->paintOver(picture, impl_->wholeColour(settings), canvas.framebuffer()));
   return FrameImage{settings.width, settings.height, canvas.readColour(), {}};
 }
 

@@ -20,7 +20,7 @@ namespace farcell {
 struct RenderSettings {
   int width = 1280;
   int height = 720;
-  int samplesPerPixel = 4;  // 1, 4 (multisampling) or 16 (four jittered passes of 4)
+  int samplesPerPixel = 4;  // 1, 4 (multisampling), or 8, 16, 64 (so many passes of 4, sample_mean.h)
   ImpostorKind kind = ImpostorKind::depthCorrected;
   SelectionSettings selection;  // its costs are those of `kind` and samples here
   CostModel costs = kDefaultCosts;
@@ -73,8 +73,8 @@ class Renderer {
   Result<FrameStats> draw(const Camera& camera, const RenderSettings& settings, FrameImage* image);
 
   // Draws over the backdrop into a framebuffer (of this OpenGL name; 0: the window's), whose size is that of
-  // `settings`, and does not wait for the GPU. Where 4 samples are asked for, frames of a camera that rests gather 16,
-  // a pass a frame, until the picture has `settled`. Fails as `draw` does.
+  // `settings`, and does not wait for the GPU. Where more than 1 sample is asked for, frames of a camera that rests
+  // gather 64, a pass a frame, until the picture has `settled`; then nothing is drawn any more. Fails as `draw` does.
   Result<FrameStats> show(const Camera& camera, const RenderSettings& settings, const Backdrop& backdrop,
                           uint32_t framebuffer = 0);
   // The picture that `show` would show, alpha 255, read back.

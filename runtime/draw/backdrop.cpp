@@ -20,8 +20,8 @@ Result<BackdropPainter> BackdropPainter::create() {
   return BackdropPainter(std::move(program));
 }
 
-void BackdropPainter::paint(const FrameTarget& frame, const Backdrop& backdrop, const Camera& camera, glm::dvec3 up,
-                            double share, GLuint framebuffer) const {
+void BackdropPainter::paint(GLuint picture, glm::ivec2 sizePx, const Backdrop& backdrop, const Camera& camera,
+                            glm::dvec3 up, GLuint framebuffer) const {
   const CameraAxes axes = cameraAxes(camera);
   const double tanY = std::tan(camera.fovYRad / 2);
   const glm::vec3 upInView(glm::dot(up, axes.right), glm::dot(up, axes.up), glm::dot(up, axes.back));
@@ -29,18 +29,16 @@ void BackdropPainter::paint(const FrameTarget& frame, const Backdrop& backdrop, 
   setColour(program_, kHorizon, backdrop.horizon);
   setColour(program_, kNadir, backdrop.nadir);
   glProgramUniform3f(program_.name(), kUp, upInView.x, upInView.y, upInView.z);
-  glProgramUniform2f(program_.name(), kTangents, static_cast<float>(tanY * frame.width() / frame.height()),
+  glProgramUniform2f(program_.name(), kTangents, static_cast<float>(tanY * sizePx.x / sizePx.y),
                      static_cast<float>(tanY));
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, frame.width(), frame.height());
+  glViewport(0, 0, sizePx.x, sizePx.y);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendColor(0.0f, 0.0f, 0.0f, static_cast<float>(share));
-  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+  glDisable(GL_BLEND);
   glUseProgram(program_.name());
   glBindVertexArray(bare_.name());
-  glBindTextureUnit(0, frame.colour());
+  glBindTextureUnit(0, picture);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

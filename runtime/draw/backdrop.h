@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 #include "cache/base/result.h"
 #include "runtime/camera/camera.h"
-#include "runtime/draw/frame_target.h"
 #include "runtime/gl/program.h"
 
 namespace farcell {
@@ -25,9 +25,9 @@ class BackdropPainter {
   // REQUIRES: a current context.
   static Result<BackdropPainter> create();
 
-  // Draws the resolved frame over the backdrop into `framebuffer`, whose size is the frame's; `share` of the result is
-  // mixed with 1 - share of what is there. `up` is the unit vector the backdrop is upright by.
-  void paint(const FrameTarget& frame, const Backdrop& backdrop, const Camera& camera, glm::dvec3 up, double share,
+  // Draws a picture (the name of a texture, premultiplied by coverage) over the backdrop into `framebuffer`, whose size
+  // is the picture's. `up` is the unit vector the backdrop is upright by.
+  void paint(GLuint picture, glm::ivec2 sizePx, const Backdrop& backdrop, const Camera& camera, glm::dvec3 up,
              GLuint framebuffer) const;
 
  private:

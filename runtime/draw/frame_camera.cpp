@@ -38,14 +38,15 @@ FrameCamera makeFrameCamera(const Directory& directory, const Camera& camera, co
   const double cosCorner = 1 / std::sqrt(1 + tanX * tanX + tanY * tanY);
   const double nearest = std::min(cut.nearestSteps, kMaxEyeSteps) * rootSidesPerStep;
   const double near = std::max(kMinNear, 0.5 * cosCorner * nearest);
-  frame.uniforms = {row(clipX),
-                    row(clipY),
-                    row(clipW),
-                    glm::ivec4(whole, 0),
-                    glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
-                    glm::vec4(lightDirection(view.light, model.settings, camera), 0.0f),
-                    glm::vec4(static_cast<float>(std::log2(view.samples) / 2), 0.0f, 0.0f, 0.0f),
-                    glm::vec4(0)};
+  frame.uniforms = {
+      row(clipX),
+      row(clipY),
+      row(clipW),
+      glm::ivec4(whole, 0),
+      glm::vec4(glm::vec3(fraction), static_cast<float>(near)),
+      glm::vec4(lightDirection(view.light, model.settings, camera), 0.0f),
+      glm::vec4(static_cast<float>(std::log2(view.samples) / 2), static_cast<float>(view.dither), 0.0f, 0.0f),
+      glm::vec4(0)};
   return frame;
 }
 

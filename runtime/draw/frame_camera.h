@@ -23,6 +23,7 @@ struct FrameView {
   glm::dvec2 jitterPx{0};  // the picture is moved by this many pixels (x right, y up)
   int samples = 1;         // of a pixel
   Light light;
+  double dither = 0;  // [0, 1), of a pass: what is by chance is otherwise in another
 };
 
 // The near plane is half way to the nearest content box of the cut, and not nearer than 2^-20 of the root's side:

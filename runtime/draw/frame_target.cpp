@@ -1,9 +1,9 @@
 #include "runtime/draw/frame_target.h"
 
-#include <algorithm>
 #include <array>
 
 #include "cache/base/check.h"
+#include "runtime/draw/read_back.h"
 
 namespace farcell {
 namespace {
@@ -71,26 +71,13 @@ void FrameTarget::resolve() const {
   }
 }
 
-std::vector<uint8_t> FrameTarget::read(GLenum attachment, GLenum format, size_t channels) const {
-  const size_t rowBytes = static_cast<size_t>(width_) * channels;
-  std::vector<uint8_t> bottomUp(rowBytes * static_cast<size_t>(height_));
-  const GLuint framebuffer = result().framebuffer.name();
-  glNamedFramebufferReadBuffer(framebuffer, attachment);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, format, GL_UNSIGNED_BYTE, bottomUp.data());
-  std::vector<uint8_t> topDown(bottomUp.size());
-  for (size_t y = 0; y < static_cast<size_t>(height_); ++y)
-    std::copy_n(bottomUp.begin() + static_cast<ptrdiff_t>(y * rowBytes), rowBytes,
-                topDown.end() - static_cast<ptrdiff_t>((y + 1) * rowBytes));
-  return topDown;
+std::vector<uint8_t> FrameTarget::readColour() const {
+  return readBack(result().framebuffer.name(), GL_COLOR_ATTACHMENT0, GL_RGBA, width_, height_);
 }
-
-std::vector<uint8_t> FrameTarget::readColour() const { return read(GL_COLOR_ATTACHMENT0, GL_RGBA, 4); }
 
 std::vector<uint8_t> FrameTarget::readCoverage() const {
   FARCELL_CHECK(withCoverage_);
-  return read(GL_COLOR_ATTACHMENT1, GL_RED, 1);
+  return readBack(result().framebuffer.name(), GL_COLOR_ATTACHMENT1, GL_RED, width_, height_);
 }
 
 }  // namespace farcell

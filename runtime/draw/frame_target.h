@@ -24,6 +24,9 @@ class FrameTarget {
   void resolve() const;
   // The texture of the means, after resolve; row 0 is the bottom row.
   GLuint colour() const { return result().colour.name(); }
+  // Multisampled where there are several samples.
+  GLuint drawnColour() const { return drawn_.colour.name(); }
+  GLuint drawnCoverage() const { return drawn_.coverage.name(); }   // REQUIRES: withCoverage
   GLuint framebuffer() const { return drawn_.framebuffer.name(); }  // what `begin` binds
   // After resolve; row 0 is the top row. Waits for the GPU.
   std::vector<uint8_t> readColour() const;
@@ -38,7 +41,6 @@ class FrameTarget {
   };
   Attachments makeAttachments(int samples, bool withDepth) const;
   const Attachments& result() const { return samples_ > 1 ? resolved_ : drawn_; }
-  std::vector<uint8_t> read(GLenum attachment, GLenum format, size_t channels) const;
 
   int width_;
   int height_;

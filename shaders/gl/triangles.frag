@@ -48,7 +48,7 @@ vec4 atlasColour() {
 int coveredSamples(float share) {
   if (share > 0.998) return -1;
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  float chance = fract(noise + 0.61803399 * float(gl_PrimitiveID & 1023));
+  float chance = fract(noise + 0.61803399 * float(gl_PrimitiveID & 1023) + frame.image.y);
   int count = int(share * float(gl_NumSamples) + chance);
   int first = int(chance * 61.0) % gl_NumSamples;
   int bits = ((1 << count) - 1) << first;

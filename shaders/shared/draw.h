@@ -16,7 +16,7 @@ struct FrameUniforms {
   ivec4 eyeSteps;    // xyz: integer part of the eye's position on the grid
   vec4 eyeFraction;  // xyz: the rest of it, in steps; w: near distance, root sides
   vec4 light;        // xyz: towards it, unit, world axes
-  vec4 image;        // x: what more samples add to the level of detail
+  vec4 image;        // x: log2 of samples on a pixel's edge, for the level of detail; y: adds to chance
   vec4 depthScale;   // for depthGrey (show.h), of depths in root sides
 };
 

@@ -321,6 +321,7 @@ Result<> applySettings(const EvaluateOptions& options, GlContext& context, std::
   for (RendererPlan& plan : plans) {
     plan.settings.costs = isTimed(plan) ? costs : kDefaultCosts;
     plan.settings.occlusion = options.occlusion;
+    if (plan.settings.selection.mode != RenderMode::full) plan.settings.samplesPerPixel = options.samples;
     plan.settings.light = options.light;
   }
   return {};

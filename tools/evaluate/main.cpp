@@ -115,6 +115,9 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--reference-samples", options.referenceSamples, "samples per pixel of the reference")
       ->check(CLI::IsMember({"1", "4", "9", "16", "25", "36", "49", "64"}))
       ->capture_default_str();
+  app.add_option("--samples", options.samples, "samples per pixel of every renderer but full geometry")
+      ->check(CLI::IsMember({"1", "4", "8", "16", "64"}))
+      ->capture_default_str();
   addSelectionOptions(app, options, words);
   app.add_option("--lod-pixels", options.lodPixels, "the same of 'lod', which draws meshes only")
       ->check(CLI::Range(kLeastMeshPixels, kMostMeshPixels))

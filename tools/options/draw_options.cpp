@@ -23,20 +23,20 @@ const std::map<std::string, Show> kShows = {
 // Settings that go together. An option of its own has the last word.
 struct Quality {
   double texelPixels, meshPixels;
-  int samples;
+  int samples;  // 0: what the program has without the option
 };
-const std::map<std::string, Quality> kQualities = {{"default", {kTexelPixels, kMeshPixels, 4}},
+const std::map<std::string, Quality> kQualities = {{"default", {kTexelPixels, kMeshPixels, 0}},
                                                    {"high", {0.35, 0.5, 16}}};
 
 void addQuality(CLI::App& app, DrawOptions& options) {
   // Before the options it sets: values are taken in this order.
   app.add_option_function<std::string>(
          "--quality",
-         [&options](const std::string& name) {
+         [&options, ownSamples = options.samples](const std::string& name) {
            const Quality& quality = kQualities.at(name);
            options.texelPixels = quality.texelPixels;
            options.meshPixels = quality.meshPixels;
-           options.samples = quality.samples;
+           options.samples = quality.samples > 0 ? quality.samples : ownSamples;
          },
          "high: --texel-pixels 0.35 --mesh-pixels 0.5 --samples 16, unless given")
       ->check(CLI::IsMember(kQualities))
@@ -88,8 +88,8 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   app.add_option("--samples", options.samples,
-                 "samples per pixel; with 4 or 16 cells change how they are drawn without a pop")
-      ->check(CLI::IsMember({"1", "4", "16"}))
+                 "samples per pixel; with 4 or more cells change how they are drawn without a pop")
+      ->check(CLI::IsMember({"1", "4", "8", "16", "64"}))
       ->capture_default_str();
   addLightOptions(app, options.light);
   app.add_option("--background", options.background, "colour behind the model, 0 to 255 each; default: " + background)

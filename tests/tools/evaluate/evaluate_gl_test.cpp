@@ -200,7 +200,7 @@ TEST_F(EvaluateProgram, RenderersOfAnotherPackOfTheSameModelAreInTheSameRun) {
   const testing::TestModel model = testing::sphereModel({100, 200, 300}, 10, 4);
   testing::writeTestPack(model, path("root.far"), PackFile::open(path("sphere.far"))->directory().sourceHash, true);
   ASSERT_EQ(run("sphere.far --against root=root.far --cameras cameras.json --renderers auto,triangles@root,lod-as-auto "
-                "--size 60x40 --frames 1 --reference-samples 4 -o report"),
+                "--samples 4 --size 60x40 --frames 1 --reference-samples 4 -o report"),
             0)
       << textOf(path("stderr"));
   const Json json = report();

@@ -83,7 +83,8 @@ TEST_F(RenderProgram, aQualityIsItsOptionsTogetherAndAnOptionHasTheLastWord) {
   EXPECT_EQ(high, picture("--texel-pixels 0.35 --mesh-pixels 0.5 --samples 16"));
   EXPECT_NE(high, picture(""));
   EXPECT_EQ(picture("--quality default"), picture(""));
-  EXPECT_EQ(picture("--samples 4 --quality high"), picture("--texel-pixels 0.35 --mesh-pixels 0.5"));
+  EXPECT_EQ(picture("--samples 4 --quality high"), picture("--texel-pixels 0.35 --mesh-pixels 0.5 --samples 4"));
+  EXPECT_EQ(picture("--quality default"), picture("--samples 8"));
   EXPECT_EQ(run("a.far --quality best -o q.png"), 2);
 }
 
