@@ -19,8 +19,14 @@
 namespace farcell {
 namespace {
 
-// Of a moving camera's picture.
+constexpr double kTriangleShare = 0.2;  // of what is drawn, from which on more samples pay
+constexpr int kPassesOfTriangles = 2;
+
+// Of a moving camera's picture; where they are as needed, the fewest and the most.
 int passesOf(const RenderSettings& settings) { return std::max(settings.samplesPerPixel / kMultisamples, 1); }
+int mostPassesOf(const RenderSettings& settings) {
+  return settings.samplesPerPixel == kSamplesAsNeeded ? kPassesOfTriangles : passesOf(settings);
+}
 
 // Evenly spread, by the golden ratio.
 double ditherOf(int pass) { return std::fmod(pass * 0.6180339887498949, 1.0); }
@@ -51,7 +57,7 @@ class Stopwatch {
 
 SelectionSettings selectionOf(const RenderSettings& settings) {
   SelectionSettings selection = settings.selection;
-  selection.costs = settings.costs.of(static_cast<size_t>(settings.kind), settings.samplesPerPixel);
+  selection.costs = settings.costs.of(static_cast<size_t>(settings.kind), settings.samplesPerPixel != 1);
   selection.timeBudgetMs /= passesOf(settings);
   return selection;
 }
@@ -62,7 +68,17 @@ uint64_t countOf(const Cut& cut, Representation representation) {
   }));
 }
 
+// That are needed of a cut.
+int passesFor(const Cut& cut, const RenderSettings& settings) {
+  if (settings.samplesPerPixel != kSamplesAsNeeded) return passesOf(settings);
+  const double budget = settings.selection.timeBudgetMs;
+  const bool fits = budget == 0 || kPassesOfTriangles * expectedMs(selectionOf(settings).costs, cut.work) <= budget;
+  const bool pays = cut.work.meshPixels > kTriangleShare * (cut.work.meshPixels + cut.work.impostorPixels);
+  return fits && pays ? kPassesOfTriangles : 1;
+}
+
 void tell(const Cut& cut, const RenderSettings& settings, int passes, FrameStats& stats) {
+  stats.samples = passes * (settings.samplesPerPixel == 1 ? 1 : kMultisamples);
   stats.triangles = cut.triangles;
   stats.meshes = countOf(cut, Representation::mesh);
   stats.work = cut.work;
@@ -79,7 +95,7 @@ void tell(const Cut& cut, const RenderSettings& settings, int passes, FrameStats
 bool handsOver(const RenderSettings& settings) {
   const RenderMode mode = settings.selection.mode;
   const bool changes = mode != RenderMode::triangles && mode != RenderMode::full;
-  return changes && settings.handOver && settings.samplesPerPixel > 1 && settings.show == Show::picture;
+  return changes && settings.handOver && settings.samplesPerPixel != 1 && settings.show == Show::picture;
 }
 
 // What a window shows.
@@ -123,10 +139,11 @@ struct Renderer::Impl {
   Result<Cut> cutOf(const Camera& camera, const RenderSettings& settings, Passes passes, FrameStats& stats);
   Result<> drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
                     Passes pass, FrameStats& stats);
-  Result<> gather(const Camera& camera, const RenderSettings& settings, bool withCoverage, Passes passes,
-                  FrameStats& stats);
+  Result<> gather(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
+                  Passes passes, FrameStats& stats);
   Result<> drawWhole(const Camera& camera, const RenderSettings& settings, bool withCoverage, FrameStats& stats);
-  GLuint wholeColour(const RenderSettings& settings) const;
+  bool isGathered(const FrameStats& stats) const { return stats.samples > kMultisamples; }  // else in `target`
+  GLuint wholeColour(const FrameStats& stats) const { return isGathered(stats) ? mean->colour() : target->colour(); }
   Result<> paintOver(const Shown& picture, GLuint colour, GLuint framebuffer);
   Result<FrameStats> showNext(const Shown& next, GLuint framebuffer);
 
@@ -147,7 +164,7 @@ Result<> Renderer::Impl::checkSettings(const RenderSettings& settings) const {
   if (settings.width < 1 || settings.height < 1 || settings.width > maxSize || settings.height > maxSize)
     return fail(ErrorKind::invalidArgument, "picture of {} x {}: each edge must lie in 1..{}", settings.width,
                 settings.height, maxSize);
-  constexpr std::array kSamples = {1, 4, 8, 16, 64};
+  constexpr std::array kSamples = {kSamplesAsNeeded, 1, 4, 8, 16, 64};
   if (std::find(kSamples.begin(), kSamples.end(), settings.samplesPerPixel) == kSamples.end())
     return fail(ErrorKind::invalidArgument, "samples per pixel: expected {}, found {}", fmt::join(kSamples, ", "),
                 settings.samplesPerPixel);
@@ -172,7 +189,7 @@ Result<SampleMean*> Renderer::Impl::meanFor(const RenderSettings& settings, bool
 
 Result<> Renderer::Impl::drawOnce(const Camera& camera, const RenderSettings& settings, const Cut& cut,
                                   bool withCoverage, Passes pass, FrameStats& stats) {
-  const int samples = settings.samplesPerPixel > 1 ? kMultisamples : 1;
+  const int samples = settings.samplesPerPixel == 1 ? 1 : kMultisamples;
   const FrameTarget& frame = targetFor(settings.width, settings.height, samples, withCoverage);
   frame.begin();
   PaintCounts counts;
@@ -226,11 +243,10 @@ Result<Cut> Renderer::Impl::cutOf(const Camera& camera, const RenderSettings& se
 }
 
 // Adds passes of one cut to the mean.
-Result<> Renderer::Impl::gather(const Camera& camera, const RenderSettings& settings, bool withCoverage, Passes passes,
-                                FrameStats& stats) {
+Result<> Renderer::Impl::gather(const Camera& camera, const RenderSettings& settings, const Cut& cut, bool withCoverage,
+                                Passes passes, FrameStats& stats) {
   FARCELL_ASSIGN(SampleMean * sum, meanFor(settings, withCoverage));
   if (passes.first == 0) sum->clear();
-  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, passes, stats));
   for (int pass = passes.first; pass < passes.end; ++pass) {
     FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, {pass, pass + 1, passes.all}, stats));
     sum->add(*target);
@@ -242,17 +258,14 @@ Result<> Renderer::Impl::gather(const Camera& camera, const RenderSettings& sett
 // A single pass needs no mean.
 Result<> Renderer::Impl::drawWhole(const Camera& camera, const RenderSettings& settings, bool withCoverage,
                                    FrameStats& stats) {
-  const int passes = passesOf(settings);
-  if (passes > 1) return gather(camera, settings, withCoverage, {0, passes, passes}, stats);
-  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, {0, 1, 1}, stats));
+  const int most = mostPassesOf(settings);
+  FARCELL_ASSIGN(const Cut cut, cutOf(camera, settings, {0, most, most}, stats));
+  const int passes = passesFor(cut, settings);
+  if (passes > 1) return gather(camera, settings, cut, withCoverage, {0, passes, passes}, stats);
   FARCELL_TRY(drawOnce(camera, settings, cut, withCoverage, {0, 1, 1}, stats));
   target->resolve();
   tell(cut, settings, 1, stats);
   return {};
-}
-
-GLuint Renderer::Impl::wholeColour(const RenderSettings& settings) const {
-  return passesOf(settings) > 1 ? mean->colour() : target->colour();
 }
 
 Result<> Renderer::Impl::paintOver(const Shown& picture, GLuint colour, GLuint framebuffer) {
@@ -271,20 +284,22 @@ Result<FrameStats> Renderer::Impl::showNext(const Shown& next, GLuint framebuffe
   const RenderSettings& settings = next.settings;
   FARCELL_TRY(checkSettings(settings));
   const Stopwatch watch;
-  const bool gathers = settings.samplesPerPixel > 1, same = shown == next && gathers;
+  const bool gathers = settings.samplesPerPixel != 1, same = shown == next && gathers;
   shown.reset();
   FrameStats stats;
   GLuint colour = 0;
   if (!same) {
     if (mean) mean->clear();
     FARCELL_TRY(drawWhole(next.camera, settings, false, stats));
-    colour = wholeColour(settings);
+    colour = wholeColour(stats);
   } else {
     const int passes = mean ? mean->passes() : 0;
     if (passes == kMostPasses) {
       stats = shownStats;
     } else {
-      FARCELL_TRY(gather(next.camera, settings, false, {passes, std::max(passes + 1, 2), kMostPasses}, stats));
+      const Passes more{passes, std::max(passes + 1, 2), kMostPasses};
+      FARCELL_ASSIGN(const Cut cut, cutOf(next.camera, settings, more, stats));
+      FARCELL_TRY(gather(next.camera, settings, cut, false, more, stats));
     }
     colour = mean->colour();
   }
@@ -327,7 +342,7 @@ Result<FrameStats> Renderer::draw(const Camera& camera, const RenderSettings& se
   stats.wallMs = watch.wallMs();
   stats.cpuMs = watch.cpuMs();
   if (image == nullptr) return stats;
-  if (passesOf(settings) > 1) {
+  if (impl_->isGathered(stats)) {
     *image = {settings.width, settings.height, impl_->mean->readColour(), impl_->mean->readCoverage()};
   } else {
     *image = {settings.width, settings.height, impl_->target->readColour(), impl_->target->readCoverage()};
@@ -347,7 +362,7 @@ Result<FrameImage> Renderer::capture(const Camera& camera, const RenderSettings&
   impl_->shown.reset();
   FrameStats stats;
   FARCELL_TRY(impl_->drawWhole(camera, settings, false, stats));
-  FARCELL_TRY(impl_->paintOver(picture, impl_->wholeColour(settings), canvas.framebuffer()));
+  FARCELL_TRY(impl_->paintOver(picture, impl_->wholeColour(stats), canvas.framebuffer()));
   return FrameImage{settings.width, settings.height, canvas.readColour(), {}};
 }
 

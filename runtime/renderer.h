@@ -17,10 +17,15 @@
 
 namespace farcell {
 
+// Of RenderSettings::samplesPerPixel: 8 where triangles may cover more than a fifth of what is drawn, and a time budget
+// has room for them; else 4: impostors are prefiltered, more samples add little to them.
+inline constexpr int kSamplesAsNeeded = 0;
+
 struct RenderSettings {
   int width = 1280;
   int height = 720;
-  int samplesPerPixel = 4;  // 1, 4 (multisampling), or 8, 16, 64 (so many passes of 4, sample_mean.h)
+  // 1, 4 (multisampling), or 8, 16, 64 (so many passes of 4, sample_mean.h), or kSamplesAsNeeded.
+  int samplesPerPixel = 4;
   ImpostorKind kind = ImpostorKind::depthCorrected;
   SelectionSettings selection;  // its costs are those of `kind` and samples here
   CostModel costs = kDefaultCosts;
@@ -42,6 +47,7 @@ struct FrameStats {
   uint64_t impostors = 0;   // cells drawn as impostors
   uint64_t texels = 0;      // of the views drawn (cropped rectangles)
   uint64_t bytesRead = 0;   // from the pack for this frame
+  int samples = 0;          // per pixel, drawn in this frame
   FrameWork work;           // as selection foresaw it, in each of the frame's passes
   double expectedMs = 0;    // that it takes, by RenderSettings::costs
   double expectedLoss = 0;  // Cut::loss and Cut::lossBound

@@ -37,7 +37,7 @@ struct DrawCosts {
 // By kind of impostor (flat, A, B), each at 1 sample and at more.
 struct CostModel {
   std::array<DrawCosts, 6> draws;
-  const DrawCosts& of(size_t kind, int samplesPerPixel) const { return draws[2 * kind + (samplesPerPixel > 1)]; }
+  const DrawCosts& of(size_t kind, bool multisampled) const { return draws[2 * kind + multisampled]; }
   bool operator==(const CostModel&) const = default;
 };
 

@@ -55,7 +55,7 @@ struct SelectionSettings {
   double millisecondPrice = kMillisecondPrice;  // where no time budget is given
   uint64_t texelBudget = 0;                     // of views, roughly
   uint64_t byteBudget = 0;                      // stored, of the pages drawn from
-  DrawCosts costs = kDefaultCosts.of(1, 4);     // of kind A
+  DrawCosts costs = kDefaultCosts.of(1, true);  // of kind A
   // How the cut of a share differs from the others' (hand_over.h).
   double detail = 1;         // a pixel counts as so many along its edge
   glm::dvec3 lean{0, 0, 0};  // added to the unit direction from which the nearest view is chosen

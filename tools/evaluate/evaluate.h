@@ -36,13 +36,13 @@ struct EvaluateOptions {
   int width = 1280;
   int height = 720;
   int referenceSamples = 64;
-  int samples = 8;              // of every renderer but full geometry, whose names say theirs
-  SelectionSettings selection;  // level rule and triangle budget of every renderer
-  bool recalibrate = false;     // machine costs, for the time budget
-  Light light;                  // of the reference and every renderer
-  int suns = 0;                 // cameras are measured under this many others too
-  bool occlusion = false;       // RenderSettings::occlusion of every renderer
-  double lodPixels = 1;         // geometric error of the renderer lod
+  int samples = kSamplesAsNeeded;  // of every renderer but full geometry, whose names say theirs
+  SelectionSettings selection;     // level rule and triangle budget of every renderer
+  bool recalibrate = false;        // machine costs, for the time budget
+  Light light;                     // of the reference and every renderer
+  int suns = 0;                    // cameras are measured under this many others too
+  bool occlusion = false;          // RenderSettings::occlusion of every renderer
+  double lodPixels = 1;            // geometric error of the renderer lod
   int timedFrames = 5;
   uint64_t residentBytes = uint64_t{1} << 30;
   Colour background = {179, 204, 230};

@@ -6,6 +6,7 @@
 #include "tools/evaluate/path/camera_path.h"
 #include "tools/evaluate/plan/renderers.h"
 #include "tools/evaluate/plan/sweep.h"
+#include "tools/options/draw_options.h"
 #include "tools/options/light_options.h"
 
 namespace farcell {
@@ -15,6 +16,7 @@ namespace {
 struct Words {
   std::string size = "1280x720";
   std::string triangleBudget = "1M";
+  std::string samples = "auto";
   std::string background = "179,204,230";
   uint64_t residentMib = 1024;
   std::string occlusion = "off";
@@ -26,6 +28,7 @@ Result<> run(EvaluateOptions& options, const Words& words) {
   options.width = size.width;
   options.height = size.height;
   FARCELL_ASSIGN(options.selection.triangleBudget, parseCount(words.triangleBudget));
+  options.samples = samplesNamed(words.samples);
   FARCELL_ASSIGN(const auto background, parseColour("--background", words.background));
   options.background =
       Colour{static_cast<float>(background[0]), static_cast<float>(background[1]), static_cast<float>(background[2])};
@@ -115,8 +118,10 @@ void addOptions(CLI::App& app, EvaluateOptions& options, Words& words) {
   app.add_option("--reference-samples", options.referenceSamples, "samples per pixel of the reference")
       ->check(CLI::IsMember({"1", "4", "9", "16", "25", "36", "49", "64"}))
       ->capture_default_str();
-  app.add_option("--samples", options.samples, "samples per pixel of every renderer but full geometry")
-      ->check(CLI::IsMember({"1", "4", "8", "16", "64"}))
+  app.add_option("--samples", words.samples,
+                 "samples per pixel of every renderer but full geometry; auto: 8 where triangles fill a fifth of the "
+                 "picture, else 4")
+      ->check(CLI::IsMember(kSampleWords))
       ->capture_default_str();
   addSelectionOptions(app, options, words);
   app.add_option("--lod-pixels", options.lodPixels, "the same of 'lod', which draws meshes only")

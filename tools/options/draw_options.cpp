@@ -23,10 +23,10 @@ const std::map<std::string, Show> kShows = {
 // Settings that go together. An option of its own has the last word.
 struct Quality {
   double texelPixels, meshPixels;
-  int samples;  // 0: what the program has without the option
+  const char* samples;  // null: what the program has without the option
 };
-const std::map<std::string, Quality> kQualities = {{"default", {kTexelPixels, kMeshPixels, 0}},
-                                                   {"high", {0.35, 0.5, 16}}};
+const std::map<std::string, Quality> kQualities = {{"default", {kTexelPixels, kMeshPixels, nullptr}},
+                                                   {"high", {0.35, 0.5, "16"}}};
 
 void addQuality(CLI::App& app, DrawOptions& options) {
   // Before the options it sets: values are taken in this order.
@@ -36,7 +36,7 @@ void addQuality(CLI::App& app, DrawOptions& options) {
            const Quality& quality = kQualities.at(name);
            options.texelPixels = quality.texelPixels;
            options.meshPixels = quality.meshPixels;
-           options.samples = quality.samples > 0 ? quality.samples : ownSamples;
+           options.samples = quality.samples != nullptr ? quality.samples : ownSamples;
          },
          "high: --texel-pixels 0.35 --mesh-pixels 0.5 --samples 16, unless given")
       ->check(CLI::IsMember(kQualities))
@@ -44,6 +44,11 @@ void addQuality(CLI::App& app, DrawOptions& options) {
 }
 
 }  // namespace
+
+int samplesNamed(const std::string& word) { return word == "auto" ? kSamplesAsNeeded : std::stoi(word); }
+std::string samplesText(int samplesPerPixel) {
+  return samplesPerPixel == kSamplesAsNeeded ? "auto" : std::to_string(samplesPerPixel);
+}
 
 void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& background) {
   app.add_option("pack", options.pack, "pack file (.far)")->required();
@@ -88,8 +93,9 @@ void addDrawOptions(CLI::App& app, DrawOptions& options, const std::string& back
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   app.add_option("--samples", options.samples,
-                 "samples per pixel; with 4 or more cells change how they are drawn without a pop")
-      ->check(CLI::IsMember({"1", "4", "8", "16", "64"}))
+                 "samples per pixel; auto: 8 where triangles fill a fifth of the picture, else 4; with 4 or more cells "
+                 "change how they are drawn without a pop")
+      ->check(CLI::IsMember(kSampleWords))
       ->capture_default_str();
   addLightOptions(app, options.light);
   app.add_option("--background", options.background, "colour behind the model, 0 to 255 each; default: " + background)
@@ -116,7 +122,7 @@ Result<DrawPlan> planOf(const DrawOptions& options) {
     return fail(ErrorKind::invalidArgument, "--camera-name needs --camera");
   plan.settings.width = size.width;
   plan.settings.height = size.height;
-  plan.settings.samplesPerPixel = options.samples;
+  plan.settings.samplesPerPixel = samplesNamed(options.samples);
   FARCELL_ASSIGN(plan.settings.light, lightOf(options.light));
   if (!options.background.empty()) {
     FARCELL_ASSIGN(plan.background, parseColour("--background", options.background));

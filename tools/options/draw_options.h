@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cache/base/result.h"
 #include "cache/schema/model.h"
@@ -14,7 +15,10 @@
 
 namespace farcell {
 
-inline constexpr int kSamples = 8;  // the least with which near triangles have .4 of the error of 1 (tests/bench/near)
+// Words of --samples, one of which stands for RenderSettings::samplesPerPixel.
+inline const std::vector<std::string> kSampleWords = {"auto", "1", "4", "8", "16", "64"};
+int samplesNamed(const std::string& word);  // REQUIRES: one of these
+std::string samplesText(int samplesPerPixel);
 
 // As typed.
 struct DrawOptions {
@@ -31,7 +35,7 @@ struct DrawOptions {
   std::string occlusion = "off";
   double texelPixels = kTexelPixels;
   double meshPixels = kMeshPixels;
-  int samples = kSamples;
+  std::string samples = "auto";
   LightOptions light;
   std::string background;  // empty: the program's own
   std::string residentBytes = "1G";

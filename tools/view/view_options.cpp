@@ -17,7 +17,7 @@ std::string renderCommand(const DrawOptions& options, const RenderSettings& sett
       "farcell render '{}' --camera '{}' --size {}x{} --mode {} --kind {} --samples {} --triangle-budget {} "
       "--texel-pixels {} --mesh-pixels {}",
       pack, cameraFile, settings.width, settings.height, modeName(settings.selection.mode), kindName(settings.kind),
-      settings.samplesPerPixel, settings.selection.triangleBudget, settings.selection.texelPixels,
+      samplesText(settings.samplesPerPixel), settings.selection.triangleBudget, settings.selection.texelPixels,
       settings.selection.meshPixels);
   if (settings.selection.timeBudgetMs > 0)
     command += fmt::format(" --time-budget-ms {}", settings.selection.timeBudgetMs);

@@ -6,10 +6,10 @@
 namespace farcell {
 
 struct ViewOptions : DrawOptions {
-  ViewOptions() { samples = 4; }  // while the camera moves
-  int frames = 0;                 // 0: until someone closes the window
-  std::string statsFile;          // of these frames; empty: none; "-": stdout
-  std::string screenshot;         // empty: none
+  ViewOptions() { samples = "4"; }  // while the camera moves
+  int frames = 0;                   // 0: until someone closes the window
+  std::string statsFile;            // of these frames; empty: none; "-": stdout
+  std::string screenshot;           // empty: none
 };
 
 void addViewOptions(CLI::App& app, ViewOptions& options);

@@ -26,7 +26,7 @@ Result<CostModel> calibrate(GlContext& context) {
       seconds);
   for (size_t kind = 0; kind < 3; ++kind)
     for (const int samples : {1, 4}) {
-      const DrawCosts& draw = costs.of(kind, samples);
+      const DrawCosts& draw = costs.of(kind, samples > 1);
       std::printf("# %s,%d,%.2f,%.1f,%.2f,%.0f,%.2f\n", kKinds[kind], samples, 1e6 * draw.picturePixelMs,
                   1e6 * draw.triangleMs, 1e6 * draw.meshPixelMs, 1e6 * draw.impostorMs, 1e6 * draw.impostorPixelMs);
     }

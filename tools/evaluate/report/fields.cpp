@@ -68,7 +68,9 @@ std::string settingsText(const Json& settings) {
 Json settingsJson(const RendererPlan& plan) {
   if (plan.kind == kOctahedral) return {{"mode", kOctahedral}, {"frameEdge", plan.frameEdge}};
   const RenderSettings& settings = plan.settings;
-  Json json = {{"mode", modeName(settings.selection.mode)}, {"samplesPerPixel", settings.samplesPerPixel}};
+  const bool asNeeded = settings.samplesPerPixel == kSamplesAsNeeded;
+  Json json = {{"mode", modeName(settings.selection.mode)},
+               {"samplesPerPixel", asNeeded ? Json("auto") : Json(settings.samplesPerPixel)}};
   if (usesTexelPixels(settings.selection.mode)) {
     json["kind"] = kindName(settings.kind);
     json["texelPixels"] = settings.selection.texelPixels;
