@@ -1,6 +1,7 @@
 #include "preprocess/choose/worth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace farcell {
@@ -9,19 +10,24 @@ namespace {
 constexpr int kSamplesPerOctave = 2;
 constexpr int kOctavesBeyondRoot = 2;
 
+// Octaves of how fine its texels are: views of a cell are first drawn as far as the finest are by fewer octaves.
+int finenessOf(const CellRecord& cell) {
+  return static_cast<int>(cell.key.level) + std::bit_width(static_cast<unsigned>(cell.form.imageSize));
+}
+
 }  // namespace
 
 Worth::Worth(std::span<const CellRecord> cells, std::span<const float> meanTexels)
     : cells_(cells), meanTexels_(meanTexels), kept_(cells.size()) {
-  for (const CellRecord& cell : cells) deepest_ = std::max(deepest_, static_cast<int>(cell.key.level));
-  samples_ = kSamplesPerOctave * (deepest_ + kOctavesBeyondRoot);
+  for (const CellRecord& cell : cells) finest_ = std::max(finest_, finenessOf(cell));
+  if (!cells.empty()) samples_ = kSamplesPerOctave * (finest_ - finenessOf(cells[0]) + kOctavesBeyondRoot);
   costs_.resize(cells.size() * static_cast<size_t>(samples_));
   for (auto cell = static_cast<uint32_t>(cells.size()); cell-- > 0;)
     for (int sample = 0; sample < samples_; ++sample) cost(cell, sample) = without(cell, sample);
 }
 
 int Worth::first(uint32_t cell) const {
-  return kSamplesPerOctave * (deepest_ - static_cast<int>(cells_[cell].key.level));
+  return kSamplesPerOctave * (finest_ - finenessOf(cells_[cell]));
 }
 
 double Worth::texelPixels(uint32_t cell, int sample) const {

@@ -3,9 +3,10 @@
 //
 // Assumptions:
 // - Pictures of 720 lines and a vertical field of view of 40 degrees, 4 samples a pixel.
-// - A visitor's distance from a cell is as likely within one octave as within any other, from where the deepest level's
-//   views are first drawn to four times as far as the root's (the level rule of runtime/selection, kWorthTexelPixels).
-//   From where a cell's views are first drawn to where its parent's are is one octave. Directions are equally likely.
+// - A visitor's distance from a cell is as likely within one octave as within any other, from where the finest views
+//   are first drawn to four times as far as the root's (the level rule of runtime/selection, kWorthTexelPixels).
+//   Where images are of one size, a cell's views are first drawn one octave before its parent's. Directions are
+//   equally likely.
 // - A cell is drawn whole or not at all, everything in it at one distance; what hides it is not known.
 // - Cost is time on the measured machine (no GPU: MEASURED.md, tests/bench/figures/results.md) plus error, at the price
 //   that going from 1 to 4 samples pays for error: microseconds a frame. Error is that of evaluate, of which a pixel of
@@ -69,7 +70,7 @@ class Worth {
 
   std::span<const CellRecord> cells_;
   std::span<const float> meanTexels_;
-  int deepest_ = 0;  // level
+  int finest_ = 0;  // octaves, see worth.cpp
   int samples_ = 0;
   std::vector<bool> kept_;
   std::vector<double> costs_;  // by cell, then sample

@@ -101,7 +101,7 @@ class Chooser {
       if (!inner) return;
       kinds_[*inner].chosen = best.inner;
       steps -= stepsOf(inner, best.inner) + stepsOf(leaf, best.leaf);
-      reach = reachOf(best.inner, reach);
+      reach = sizeOf(best.inner);
     }
   }
 
@@ -111,12 +111,8 @@ class Chooser {
     double error = std::numeric_limits<double>::infinity();
     size_t inner = 0, leaf = 0;
   };
-  using Table = std::array<std::vector<Best>, kSizes>;  // by the size that the parents' views reach like, then steps
+  using Table = std::array<std::vector<Best>, kSizes>;  // by the parents' image size, then steps
 
-  // A parent of half the size of its own parent is drawn no nearer than that one.
-  static size_t reachOf(size_t candidate, size_t reach) {
-    return std::max(sizeOf(candidate), reach > 0 ? reach - 1 : 0);
-  }
   static int fromPixels(size_t reach) { return kCandidateSizes[reach] / 4; }
 
   size_t stepsOf(std::optional<size_t> kind, size_t candidate) const {
@@ -140,11 +136,12 @@ class Chooser {
       table.resize(kByteSteps + 1);
       for (size_t i = 0; i < (inner ? kCandidates : 1); ++i)
         for (size_t j = 0; j < (leaf ? kCandidates : 1); ++j) {
+          if ((inner && sizeOf(i) < reach) || (leaf && sizeOf(j) < reach)) continue;
           const double own = (inner ? innerError(*inner, i, reach) : 0) + (leaf ? leafError(*leaf, j, reach) : 0);
           const size_t taken = stepsOf(inner, i) + stepsOf(leaf, j);
           for (size_t steps = taken; steps <= kByteSteps; ++steps) {
             const bool deeper = inner && level + 1 < levels_.size();
-            const double below = deeper ? tables_[level + 1][reachOf(i, reach)][steps - taken].error : 0;
+            const double below = deeper ? tables_[level + 1][sizeOf(i)][steps - taken].error : 0;
             if (own + below < table[steps].error) table[steps] = {own + below, i, j};
           }
         }

@@ -3,11 +3,12 @@
 // A kind is the cells of a level that are leaves, or that are not: one distance shows them in one size. Walking away
 // from the model, a picture edge of R pixels over a cell's views falls by half each octave of distance and each level.
 // A cell of image size s is drawn by its views from where its parent's are too coarse, R > sp / 4 (sp the parent's
-// image size), to R = s / 2; nearer, an inner cell by its children, a leaf by its triangles. What is minimised is the
-// sum over octaves of distance of the error to expect, as a multiple of full geometry's at one sample a pixel, each
-// kind by its share of the picture, with no more bytes than given: a multiple-choice knapsack, solved exactly over
-// kByteSteps steps of the budget from the deepest level up, since a kind meets those above only through its parents'
-// image size.
+// image size), to R = s / 2; nearer, an inner cell by its children, a leaf by its triangles. No
+// cell has smaller images than its parent: the parent's views would have to do for its own, but a larger cell comes
+// near with its nearest point first. What is minimised is the sum over octaves of distance of the error to expect, as a
+// multiple of full geometry's at one sample a pixel, each kind by its share of the picture, with no more bytes than
+// given: a multiple-choice knapsack, solved exactly over kByteSteps steps of the budget from the deepest level up,
+// since a kind meets those above only through its parents' image size.
 #pragma once
 
 #include <map>

@@ -276,7 +276,7 @@ TEST_F(BuildPack, MeaninglessSettingsAreMisuse) {
     const auto result = build(mesh, "never.far", options);
     return result ? ErrorKind::io : result.error().kind;
   };
-  EXPECT_EQ(kindOf([](BuildSettings& s) { s.views = 43; }), ErrorKind::invalidArgument);
+  EXPECT_EQ(kindOf([](BuildSettings& s) { s.form.views = 43; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.form.imageSize = 100; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.samples = 5; }), ErrorKind::invalidArgument);
   EXPECT_EQ(kindOf([](BuildSettings& s) { s.leafTriangles = 0; }), ErrorKind::invalidArgument);

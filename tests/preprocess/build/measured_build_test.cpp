@@ -10,6 +10,7 @@
 #include <random>
 
 #include "cache/base/file.h"
+#include "cache/pack/pack_file.h"
 #include "preprocess/build/build.h"
 #include "preprocess/build/measure_job.h"
 
@@ -115,6 +116,38 @@ TEST_F(MeasuredBuild, hasTheSameBytesForAnyThreadsAndMemory) {
   EXPECT_NE(bytes(), one);
 }
 
+// Of leaves that are few, so that there are few kinds of cells.
+TEST_F(MeasuredBuild, choosesTheSameFormsForAnyThreadsAndMemory) {
+  BuildOptions options;
+  options.settings.leafTriangles = 1000;
+  options.settings.samples = 1;
+  options.settings.form = {42, 64};
+  const auto built = [&] {
+    Progress silent(false);
+    const std::filesystem::path file = mesh();
+    return buildPack({&file, 1}, pack(), options, silent).value();
+  };
+  const BuildResult fixed = built();
+  EXPECT_TRUE(fixed.measured.forms.kinds.empty());
+  options.settings.forms = Forms::chosen;
+  options.threads = 1;
+  const BuildResult chosen = built();
+  const std::string one = bytes();
+  options.threads = 3;
+  options.memoryBytes = kMinMemoryBytes;
+  built();
+  EXPECT_EQ(bytes(), one);
+
+  EXPECT_TRUE(PackFile::open(pack())->verify(10, nullptr).empty());
+  EXPECT_LE(chosen.directory.report.impostorBytes, fixed.directory.report.impostorBytes);
+  ASSERT_FALSE(chosen.measured.forms.kinds.empty());
+  for (const KindForms& kind : chosen.measured.forms.kinds)
+    for (const CellRecord& cell : chosen.directory.cells)
+      if (kindOf(cell) == kind.kind) {
+        EXPECT_EQ(cell.form, candidateForm(kind.chosen));
+      }
+}
+
 TEST_F(MeasuredBuild, withoutMeasuringKnowsNoErrors) {
   const BuildResult built = build(Measure::off);
   EXPECT_EQ(built.measured.cells, 0u);
@@ -130,16 +163,16 @@ TEST(MeasureJobs, areSpreadOverLevelsAndDensities) {
       cell.triangles = 10 + 7 * ((31 * i) % (100 * level));
       tree.cells.push_back(cell);
     }
-  const std::vector<MeasureJob> jobs = measureJobs(tree, Measure::sample);
+  const std::vector<uint32_t> jobs = cellsToMeasure(tree, Measure::sample);
   ASSERT_EQ(jobs.size(), kUsuallyMeasured);
   std::array<int, 5> byLevel{};
-  for (const MeasureJob& job : jobs) ++byLevel[tree.cells[job.cell].key.level];
+  for (const uint32_t cell : jobs) ++byLevel[tree.cells[cell].key.level];
   EXPECT_EQ(byLevel, (std::array<int, 5>{0, 2, 5, 7, 10})) << "as there are cells";
-  const auto most = std::max_element(jobs.begin(), jobs.end(), [&](auto& a, auto& b) {
-    return tree.cells[a.cell].triangles < tree.cells[b.cell].triangles;
+  const auto most = std::max_element(jobs.begin(), jobs.end(), [&](uint32_t a, uint32_t b) {
+    return tree.cells[a].triangles < tree.cells[b].triangles;
   });
-  EXPECT_GT(tree.cells[most->cell].triangles, 2500u);
-  EXPECT_EQ(measureJobs(tree, Measure::all).size(), tree.cells.size());
+  EXPECT_GT(tree.cells[*most].triangles, 2500u);
+  EXPECT_EQ(cellsToMeasure(tree, Measure::all).size(), tree.cells.size());
 }
 
 }  // namespace

@@ -30,8 +30,7 @@ struct Arguments {
   std::string simplifier = "collapse";
   std::string measure = "sample";
   std::string lighting = "baked";
-  std::string forms;  // empty: by what else is given
-  bool defaultForm = true;
+  std::string forms = "fixed";
   std::string sun;  // empty: the default
   std::string up;
   std::string unit;
@@ -45,10 +44,10 @@ void addContentOptions(CLI::App& app, Arguments& arguments) {
   BuildSettings& settings = arguments.options.settings;
   arguments.leafTriangles = std::to_string(settings.leafTriangles);
   app.add_option("--forms", arguments.forms,
-                 "of each cell's views, their number and size: chosen by measured error, of no more bytes in all than "
-                 "the two below would take for all cells; fixed: these for all cells; default: fixed where one of the "
-                 "two is given, else chosen")
-      ->check(CLI::IsMember({"chosen", "fixed"}));
+                 "of the views of cells: fixed, all cells have those of the two options below; chosen, each level has "
+                 "its own number and size, by measured error, in no more bytes than those would take")
+      ->check(CLI::IsMember({"fixed", "chosen"}))
+      ->capture_default_str();
   app.add_option("--views", settings.form.views, "viewpoints per cell")
       ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
       ->capture_default_str();
@@ -308,12 +307,6 @@ Result<> chooseMemory(Arguments& arguments) {
   return fail(ErrorKind::invalidArgument, "--pack-budget: expected at least 1 byte, found 0");
 }
 
-// By default where nothing says otherwise, and something is measured.
-bool chooseForms(const Arguments& arguments) {
-  if (!arguments.forms.empty()) return arguments.forms == "chosen";
-  return arguments.defaultForm && arguments.measure != "off";
-}
-
 Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   if (arguments.mpi && crew == nullptr) return becomeMpi(argv);
   BuildSettings& settings = arguments.options.settings;
@@ -321,7 +314,7 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   settings.measure = arguments.measure == "off"   ? Measure::off
                      : arguments.measure == "all" ? Measure::all
                                                   : Measure::sample;
-  settings.forms = chooseForms(arguments) ? Forms::chosen : Forms::fixed;
+  settings.forms = arguments.forms == "chosen" ? Forms::chosen : Forms::fixed;
   settings.lighting = arguments.lighting == "relightable" ? Lighting::relightable : Lighting::baked;
   if (!arguments.sun.empty()) {
     FARCELL_ASSIGN(settings.sun, parseSun("--sun", arguments.sun));
@@ -383,10 +376,7 @@ int buildProgram(int argc, char** argv, Crew* crew) {
       "                    budgets in bytes; at the end {\"event\": \"done\", \"seconds\"}\n");
   Arguments arguments;
   addOptions(app, arguments);
-  return runProgram(app, argc, argv, [&] {
-    arguments.defaultForm = app.count("--views") + app.count("--image-size") == 0;
-    return run(arguments, crew, argv);
-  });
+  return runProgram(app, argc, argv, [&] { return run(arguments, crew, argv); });
 }
 
 }  // namespace farcell
