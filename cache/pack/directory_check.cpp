@@ -84,8 +84,8 @@ class Checker {
   Result<> settings() const {
     const BuildSettings& s = directory_.model.settings;
     if (!isViewForm(s.form)) return wrongModel(kForms, text(s.form));
-    if (s.forms > Forms::chosen)
-      return wrongModel("forms of 0 or 1", fmt::format("{}", static_cast<uint32_t>(s.forms)));
+    if (s.forms > Forms::byHeight)
+      return wrongModel("forms of 0 to 2", fmt::format("{}", static_cast<uint32_t>(s.forms)));
     if (s.samples != 1 && s.samples != 4 && s.samples != 16 && s.samples != 64)
       return wrongModel("1, 4, 16 or 64 samples", fmt::format("{}", s.samples));
     if (s.leafTriangles < 1) return wrongModel("at least 1 triangle a leaf", fmt::format("{}", s.leafTriangles));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
@@ -17,6 +19,17 @@ constexpr std::array<UnitName, 6> kUnits = {
     {{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048}}};
 
 }  // namespace
+
+namespace {
+constexpr std::array<const char*, 3> kFormsNames = {"fixed", "chosen", "by-height"};
+}
+
+std::optional<Forms> formsNamed(std::string_view name) {
+  const auto found = std::find(kFormsNames.begin(), kFormsNames.end(), name);
+  if (found == kFormsNames.end()) return std::nullopt;
+  return static_cast<Forms>(found - kFormsNames.begin());
+}
+const char* formsName(Forms forms) { return kFormsNames.at(static_cast<size_t>(forms)); }
 
 std::optional<UpAxis> upAxisNamed(std::string_view name) {
   if (name == "x") return UpAxis::x;

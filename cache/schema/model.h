@@ -36,8 +36,9 @@ enum class Measure : uint8_t {
 
 // Of the impostors of cells.
 enum class Forms : uint16_t {
-  fixed = 0,   // all are of the settings' form
-  chosen = 1,  // each cell has its own, by measured error; all views together take no more bytes than of that form
+  fixed = 0,     // all are of the settings' form
+  chosen = 1,    // each cell has its own, by measured error; all views together take no more bytes than of that form
+  byHeight = 2,  // by how far a cell is above the leaves (preprocess/choose/forms_by_height.h)
 };
 
 inline constexpr int kMaxViewError = 8;
@@ -98,6 +99,8 @@ glm::vec3 sunDirection(UpAxis up, const Sun& sun);
 std::string sunText(const Sun& sun);
 // As people write them: "x", "y" or "z"; a length of mm, cm, m, km, in or ft. Nothing for other words.
 std::optional<UpAxis> upAxisNamed(std::string_view name);
+std::optional<Forms> formsNamed(std::string_view name);  // "fixed", "by-height", "chosen"
+const char* formsName(Forms forms);
 std::optional<double> metresOfUnit(std::string_view name);
 // Unit vector of the up axis, and of the two others in right-handed order after it.
 glm::dvec3 upVector(UpAxis up);

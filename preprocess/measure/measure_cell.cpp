@@ -11,8 +11,6 @@ constexpr std::array<glm::dvec3, 3> kDirections = {glm::dvec3(0.333599773, 0.891
 // Of impostors, where a texel is two pixels, every fourth pixel says enough.
 constexpr int kFinestStride = 2;
 
-int edgeOf(int imageSize, size_t scale) { return static_cast<int>(imageSize * kErrorTexelPixels[scale]); }
-
 class Measurement {
  public:
   Measurement(const MeasuredCell& cell, const ViewOf& view, const MeasureSettings& settings)
@@ -26,6 +24,8 @@ class Measurement {
   }
 
  private:
+  static int edgeOf(int imageSize, size_t scale) { return static_cast<int>(imageSize * kErrorTexelPixels[scale]); }
+
   PicturePair take(const CellSoup& soup, glm::dvec3 direction, int edge, int samples) const {
     TextureSampler* textures = &soup == cell_.mesh ? cell_.meshTextures : cell_.textures;
     return takePair(soup, textures, settings_.sun, direction, edge, samples);

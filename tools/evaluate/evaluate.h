@@ -16,7 +16,7 @@
 #include "cache/base/progress.h"
 #include "cache/base/result.h"
 #include "runtime/camera/light.h"
-#include "runtime/selection/selection.h"
+#include "runtime/renderer.h"
 #include "tools/evaluate/metrics/images.h"
 
 namespace farcell {

@@ -40,7 +40,7 @@ Json modelJson(const Directory& directory) {
 Json settingsJson(const BuildSettings& settings) {
   return {{"views", settings.form.views},
           {"imageSize", settings.form.imageSize},
-          {"forms", settings.forms == Forms::chosen ? "chosen" : "fixed"},
+          {"forms", formsName(settings.forms)},
           {"samples", settings.samples},
           {"leafTriangles", settings.leafTriangles},
           {"maxLevel", settings.maxLevel},

@@ -30,8 +30,8 @@ struct Arguments {
   std::string simplifier = "collapse";
   std::string measure = "sample";
   std::string lighting = "baked";
-  std::string forms = "fixed";
-  std::string sun;  // empty: the default
+  std::string forms;  // empty: by what else is given
+  std::string sun;    // empty: the default
   std::string up;
   std::string unit;
   bool mpi = false;
@@ -39,21 +39,27 @@ struct Arguments {
   ProgressForm progress = ProgressForm::automatic;
 };
 
+void addFormOptions(CLI::App& app, Arguments& arguments) {
+  ViewForm& form = arguments.options.settings.form;
+  app.add_option("--forms", arguments.forms,
+                 "number and size of the views of cells: fixed, those of the two options below; by-height, from these: "
+                 "leaves have fewer and larger ones, cells high above them more and larger ones; chosen, each level "
+                 "has its own by measured error, in no more bytes than fixed ones would take; default: by-height, or "
+                 "fixed where one of the two is given")
+      ->check(CLI::IsMember({"fixed", "by-height", "chosen"}));
+  app.add_option("--views", form.views, "viewpoints per cell")
+      ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
+      ->capture_default_str();
+  app.add_option("--image-size", form.imageSize, "texels along a view's edge")
+      ->check(CLI::IsMember({"16", "32", "64", "128", "256", "512", "1024"}))
+      ->capture_default_str();
+}
+
 // What the pack is to hold.
 void addContentOptions(CLI::App& app, Arguments& arguments) {
   BuildSettings& settings = arguments.options.settings;
   arguments.leafTriangles = std::to_string(settings.leafTriangles);
-  app.add_option("--forms", arguments.forms,
-                 "of the views of cells: fixed, all cells have those of the two options below; chosen, each level has "
-                 "its own number and size, by measured error, in no more bytes than those would take")
-      ->check(CLI::IsMember({"fixed", "chosen"}))
-      ->capture_default_str();
-  app.add_option("--views", settings.form.views, "viewpoints per cell")
-      ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
-      ->capture_default_str();
-  app.add_option("--image-size", settings.form.imageSize, "texels along a view's edge")
-      ->check(CLI::IsMember({"16", "32", "64", "128", "256", "512", "1024"}))
-      ->capture_default_str();
+  addFormOptions(app, arguments);
   app.add_option("--samples", settings.samples, "samples per texel")
       ->check(CLI::IsMember({"1", "4", "16", "64"}))
       ->capture_default_str();
@@ -314,7 +320,7 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   settings.measure = arguments.measure == "off"   ? Measure::off
                      : arguments.measure == "all" ? Measure::all
                                                   : Measure::sample;
-  settings.forms = arguments.forms == "chosen" ? Forms::chosen : Forms::fixed;
+  if (!arguments.forms.empty()) settings.forms = formsNamed(arguments.forms).value();
   settings.lighting = arguments.lighting == "relightable" ? Lighting::relightable : Lighting::baked;
   if (!arguments.sun.empty()) {
     FARCELL_ASSIGN(settings.sun, parseSun("--sun", arguments.sun));
@@ -376,7 +382,11 @@ int buildProgram(int argc, char** argv, Crew* crew) {
       "                    budgets in bytes; at the end {\"event\": \"done\", \"seconds\"}\n");
   Arguments arguments;
   addOptions(app, arguments);
-  return runProgram(app, argc, argv, [&] { return run(arguments, crew, argv); });
+  return runProgram(app, argc, argv, [&] {
+    const bool isFormGiven = app.count("--views") + app.count("--image-size") > 0;
+    arguments.options.settings.forms = isFormGiven ? Forms::fixed : Forms::byHeight;
+    return run(arguments, crew, argv);
+  });
 }
 
 }  // namespace farcell

@@ -93,7 +93,7 @@ Json packJson(const std::string& fileName, uint64_t bytes, const Directory& dire
           {"triangles", directory.report.inputTriangles},
           {"views", settings.form.views},
           {"imageSize", settings.form.imageSize},
-          {"forms", settings.forms == Forms::chosen ? "chosen" : "fixed"},
+          {"forms", formsName(settings.forms)},
           {"samples", settings.samples},
           {"leafTriangles", settings.leafTriangles},
           {"lighting", settings.lighting == Lighting::relightable ? "relightable" : "baked"}};
