@@ -36,7 +36,7 @@ struct EvaluateOptions {
   int width = 1280;
   int height = 720;
   int referenceSamples = 64;
-  int samples = kSamplesAsNeeded;  // of every renderer but full geometry, whose names say theirs
+  int samples = 8;  // of every renderer but full geometry, whose names say theirs
   SelectionSettings selection;     // level rule and triangle budget of every renderer
   bool recalibrate = false;        // machine costs, for the time budget
   Light light;                     // of the reference and every renderer

@@ -16,7 +16,7 @@ namespace {
 struct Words {
   std::string size = "1280x720";
   std::string triangleBudget = "1M";
-  std::string samples = "auto";
+  std::string samples = kSamples;
   std::string background = "179,204,230";
   uint64_t residentMib = 1024;
   std::string occlusion = "off";

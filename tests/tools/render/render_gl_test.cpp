@@ -84,7 +84,7 @@ TEST_F(RenderProgram, aQualityIsItsOptionsTogetherAndAnOptionHasTheLastWord) {
   EXPECT_NE(high, picture(""));
   EXPECT_EQ(picture("--quality default"), picture(""));
   EXPECT_EQ(picture("--samples 4 --quality high"), picture("--texel-pixels 0.35 --mesh-pixels 0.5 --samples 4"));
-  EXPECT_EQ(picture("--quality default"), picture("--samples auto"));
+  EXPECT_EQ(picture("--quality default"), picture("--samples 8"));
   EXPECT_EQ(run("a.far --quality best -o q.png"), 2);
 }
 

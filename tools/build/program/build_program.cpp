@@ -30,8 +30,8 @@ struct Arguments {
   std::string simplifier = "collapse";
   std::string measure = "sample";
   std::string lighting = "baked";
-  std::string forms;  // empty: by what else is given
-  std::string sun;    // empty: the default
+  std::string forms = formsName(Forms::fixed);
+  std::string sun;  // empty: the default
   std::string up;
   std::string unit;
   bool mpi = false;
@@ -44,9 +44,9 @@ void addFormOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--forms", arguments.forms,
                  "number and size of the views of cells: fixed, those of the two options below; by-height, from these: "
                  "leaves have fewer and larger ones, cells high above them more and larger ones; chosen, each level "
-                 "has its own by measured error, in no more bytes than fixed ones would take; default: by-height, or "
-                 "fixed where one of the two is given")
-      ->check(CLI::IsMember({"fixed", "by-height", "chosen"}));
+                 "has its own by measured error, in no more bytes than fixed ones would take")
+      ->check(CLI::IsMember({"fixed", "by-height", "chosen"}))
+      ->capture_default_str();
   app.add_option("--views", form.views, "viewpoints per cell")
       ->check(CLI::IsMember({"12", "42", "162", "642", "20", "80", "320", "1280"}))
       ->capture_default_str();
@@ -320,7 +320,7 @@ Result<> run(Arguments& arguments, Crew* crew, char** argv) {
   settings.measure = arguments.measure == "off"   ? Measure::off
                      : arguments.measure == "all" ? Measure::all
                                                   : Measure::sample;
-  if (!arguments.forms.empty()) settings.forms = formsNamed(arguments.forms).value();
+  settings.forms = formsNamed(arguments.forms).value();
   settings.lighting = arguments.lighting == "relightable" ? Lighting::relightable : Lighting::baked;
   if (!arguments.sun.empty()) {
     FARCELL_ASSIGN(settings.sun, parseSun("--sun", arguments.sun));
@@ -382,11 +382,7 @@ int buildProgram(int argc, char** argv, Crew* crew) {
       "                    budgets in bytes; at the end {\"event\": \"done\", \"seconds\"}\n");
   Arguments arguments;
   addOptions(app, arguments);
-  return runProgram(app, argc, argv, [&] {
-    const bool isFormGiven = app.count("--views") + app.count("--image-size") > 0;
-    arguments.options.settings.forms = isFormGiven ? Forms::fixed : Forms::byHeight;
-    return run(arguments, crew, argv);
-  });
+  return runProgram(app, argc, argv, [&] { return run(arguments, crew, argv); });
 }
 
 }  // namespace farcell
