@@ -8,7 +8,7 @@
 namespace farcell {
 namespace {
 
-constexpr uint32_t kWhite = 0x00ffffff;
+constexpr uint32_t kBright = 0x00ffffff;
 
 double squared(double v) { return v > 0 ? v * v : 0; }
 
@@ -50,17 +50,17 @@ TEST(Samples, coverTheSharesOfPixelsBesideAnEdge) {
   std::mt19937 random(static_cast<uint32_t>(::testing::UnitTest::GetInstance()->random_seed()));
   std::uniform_real_distribution<double> unit(0, 1);
   constexpr int kEdgePixels = 96;
-  constexpr double kDistance = 4, kFovYRad = 0.5;
-  const double worldPerPixel = 2 * kDistance * std::tan(kFovYRad / 2) / kEdgePixels;
+  constexpr double kAway = 4, kFovYRad = 0.5;
+  const double worldPerPixel = 2 * kAway * std::tan(kFovYRad / 2) / kEdgePixels;
   for (int round = 0; round < 3; ++round) {
     const double angle = 2 * std::numbers::pi * unit(random), offset = 4 * unit(random) - 2;
     SCOPED_TRACE(fmt::format("angle {}, offset {}", angle, offset));
     // In the plane x = 0, seen from +x: y to the right, z up.
     const glm::dvec3 across(0, std::cos(angle), std::sin(angle)), along(0, -std::sin(angle), std::cos(angle));
     const glm::dvec3 middle = across * (offset * worldPerPixel);
-    DrawnPack drawn = openDrawn({{{middle - 9.0 * along, middle + 9.0 * along, middle - 9.0 * across}, kWhite}},
+    DrawnPack drawn = openDrawn({{{middle - 9.0 * along, middle + 9.0 * along, middle - 9.0 * across}, kBright}},
                                 {.level = 1, .withViews = false});
-    const Camera camera = lookAt({kDistance, 0, 0}, {0, 0, 0}, kFovYRad);
+    const Camera camera = lookAt({kAway, 0, 0}, {0, 0, 0}, kFovYRad);
     for (const auto& [samples, bound] : {std::pair{4, 0.13}, {8, 0.1}, {16, 0.055}, {64, 0.025}}) {
       FrameImage image;
       drawn.draw(camera, sized(kEdgePixels, kEdgePixels, RenderMode::triangles, samples), image);
@@ -90,7 +90,7 @@ double meanError(const FrameImage& image, const std::vector<double>& truth) {
 }
 
 TEST(Samples, ofMorePassesComeNearerToALargePictureMadeSmall) {
-  DrawnPack drawn = openDrawn(sphereTriangles({0, 0, 0}, 5, 3, kWhite), {.level = 1, .views = 12, .imageSize = 32});
+  DrawnPack drawn = openDrawn(sphereTriangles({0, 0, 0}, 5, 3, kBright), {.level = 1, .views = 12, .imageSize = 32});
   const Camera camera = lookAt({20, 3, 4}, {0, 0, 0});
   FrameImage large;
   drawn.draw(camera, sized(8 * 120, 8 * 90, RenderMode::full, 1), large);
