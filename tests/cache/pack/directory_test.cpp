@@ -123,7 +123,7 @@ TEST_F(LyingDirectory, IsRefusedForTheFormOfACell) {
       },
       "42 views of 16 texels");
   expectRefused(
-      "forms", [](Directory& d) { d.model.settings.forms = static_cast<Forms>(2); }, "forms of 0 or 1");
+      "forms", [](Directory& d) { d.model.settings.forms = static_cast<Forms>(3); }, "forms of 0 to 2");
   const auto refuse = [&](ViewForm form) {
     expectRefused(
         "form",
