@@ -16,7 +16,7 @@ void setColour(const GlProgram& program, GLint location, const std::array<uint8_
 }  // namespace
 
 Result<BackdropPainter> BackdropPainter::create() {
-  FARCELL_ASSIGN(GlProgram program, loadProgram({"shaders/gl/backdrop.vert", "shaders/gl/backdrop.frag", {}}));
+  FARCELL_ASSIGN(GlProgram program, loadProgram({"shaders/gl/whole_picture.vert", "shaders/gl/backdrop.frag", {}}));
   return BackdropPainter(std::move(program));
 }
 

@@ -54,7 +54,7 @@ Result<SampleMean> SampleMean::create(int width, int height, bool withCoverage, 
   std::vector<std::string> defines;
   if (withCoverage) defines.emplace_back("COVERAGE");
   FARCELL_ASSIGN(GlProgram program,
-                 loadProgram({"shaders/gl/sample_mean.vert", "shaders/gl/sample_mean.frag", defines}));
+                 loadProgram({"shaders/gl/whole_picture.vert", "shaders/gl/sample_mean.frag", defines}));
   return SampleMean(width, height, withCoverage, std::move(positions), std::move(program));
 }
 

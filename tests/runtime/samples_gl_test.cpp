@@ -105,5 +105,26 @@ TEST(Samples, ofMorePassesComeNearerToALargePictureMadeSmall) {
   EXPECT_LT(errors.back(), 0.35 * errors[1]);
 }
 
+// Triangles near by, impostors from afar; where time is short, the fewer samples.
+TEST(Samples, asNeededAreEightOfTrianglesAndFourOfImpostors) {
+  DrawnPack drawn = openDrawn(sphereTriangles({0, 0, 0}, 5, 3, kBright), {.level = 1, .views = 12, .imageSize = 32});
+  const auto samplesFrom = [&](double distance, double timeBudgetMs) {
+    RenderSettings settings = sized(96, 72, RenderMode::automatic, kSamplesAsNeeded);
+    settings.selection.timeBudgetMs = timeBudgetMs;
+    FrameImage image;
+    const FrameStats stats = drawn.draw(lookAt({distance, 3, 4}, {0, 0, 0}), settings, image);
+    EXPECT_EQ(stats.impostors == 0, stats.triangles > 0) << distance;
+    FrameImage same;
+    drawn.draw(lookAt({distance, 3, 4}, {0, 0, 0}), sized(96, 72, RenderMode::automatic, stats.samples), same);
+    if (timeBudgetMs == 0) {
+      EXPECT_EQ(image.rgba, same.rgba) << "no picture of its own";
+    }
+    return stats.samples;
+  };
+  EXPECT_EQ(samplesFrom(20, 0), 8);
+  EXPECT_EQ(samplesFrom(2000, 0), 4);
+  EXPECT_EQ(samplesFrom(20, 1e-6), 4);
+}
+
 }  // namespace
 }  // namespace farcell

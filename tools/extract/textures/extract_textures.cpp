@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-uint8_t withoutAlpha(uint8_t value, uint8_t alpha) {
-  return alpha == 0 ? uint8_t{0} : static_cast<uint8_t>(std::min(255, (value * 255 + alpha / 2) / alpha));
-}
-
 // Upright, and not premultiplied.
 Picture pictureOf(const TexturePage& atlas, uint32_t level) {
   const uint32_t width = atlas.width >> level, height = atlas.height >> level, channels = atlas.channels;

@@ -8,10 +8,6 @@
 namespace farcell {
 namespace {
 
-uint8_t withoutCoverage(uint8_t value, uint8_t alpha) {
-  return alpha == 0 ? uint8_t{0} : static_cast<uint8_t>(std::min(255, (value * 255 + alpha / 2) / alpha));
-}
-
 uint8_t byteOf(float value) { return static_cast<uint8_t>(std::clamp(value * 127.5f + 128.0f, 0.0f, 255.0f)); }
 
 void putNormal(const uint8_t* octahedral, uint8_t alpha, uint8_t* out) {
@@ -27,7 +23,7 @@ void putTexel(const ViewImage& view, size_t texel, ViewChannel channel, uint8_t*
   const uint8_t* rgba = view.rgba.data() + 4 * texel;
   switch (channel) {
     case ViewChannel::colour:
-      for (size_t i = 0; i < 3; ++i) out[i] = withoutCoverage(rgba[i], rgba[3]);
+      for (size_t i = 0; i < 3; ++i) out[i] = withoutAlpha(rgba[i], rgba[3]);
       out[3] = rgba[3];
       break;
     case ViewChannel::coverage:
